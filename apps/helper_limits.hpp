@@ -34,8 +34,8 @@ inline void end_with_slipfit() {
   if (::poll(&output, 1, 0) == 1 && (output.revents & POLLERR) != 0) ::_exit(1);
 }
 
-/// From now on no file, pipe or socket can be opened, and the limit cannot be raised again: a file must not make the
-/// libraries read another one. Filters that HDF5 loads from files are out of reach, too.
+/// Prevents the process from opening any file, pipe or socket; the limit cannot be raised again. A file can then not
+/// make the libraries read another one, nor can HDF5 load filters from files.
 inline void forbid_opening_files() {
   const rlimit none{0, 0};
   setrlimit(RLIMIT_NOFILE, &none);

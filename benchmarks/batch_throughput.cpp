@@ -1,4 +1,4 @@
-// Throughput, memory and overhead of slipfit batch. docs/accuracy.md quotes what it prints.
+// Throughput, memory and overhead of slipfit batch. docs/validation.md quotes what it prints.
 // batch_throughput [RECORDINGS [SAMPLES]]
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 // Pairs of groups of simulated recordings, with and without a true difference: how often `compare` finds one that is
 // not there, and how often its intervals hold the true difference and ratio. Beside it, other ways to join repeats.
-// docs/accuracy.md quotes what it prints.
+// docs/validation.md quotes what it prints.
 //   compare_coverage [PAIRS [SEED [JOBS]]]
 
 #include <fmt/format.h>

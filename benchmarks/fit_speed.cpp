@@ -1,5 +1,5 @@
 // Speed of a whole analysis after reading (Google Benchmark): quality, slips, frequency, all Coulomb tiers, kind of
-// motion. docs/accuracy.md quotes what it prints.
+// motion. docs/validation.md quotes what it prints.
 
 #include <benchmark/benchmark.h>
 

@@ -1,5 +1,5 @@
 // How often the 95 % interval of the quoted frequency holds the truth, and how large its error is beside those of the
-// two methods that it chooses from. docs/accuracy.md quotes what it prints.
+// two methods that it chooses from. docs/validation.md quotes what it prints.
 //   frequency_coverage [RECORDINGS [SEED]]
 
 #include <fmt/format.h>
@@ -83,7 +83,7 @@ int main(int count, char** words) {
   for (const double noise : {0.002, 0.1})
     study(fmt::format("noise {}", noise), with(&Factors::noise, noise), recordings, seed);
   for (const double samples : {3.0, 8.0}) {
-    study(fmt::format("{} samples a slip", samples), with(&Factors::samples_per_slip, samples), recordings, seed);
+    study(fmt::format("{} samples per slip", samples), with(&Factors::samples_per_slip, samples), recordings, seed);
   }
   for (const double drift : {3.0, 30.0})
     study(fmt::format("drift {}", drift), with(&Factors::drift, drift), recordings, seed);

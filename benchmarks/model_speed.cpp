@@ -1,4 +1,4 @@
-// Speed of the model layer (Google Benchmark). docs/accuracy.md quotes what it prints.
+// Speed of the model layer (Google Benchmark). docs/validation.md quotes what it prints.
 
 #include <benchmark/benchmark.h>
 

@@ -44,7 +44,7 @@ std::optional<FitResult> qualify(std::optional<FitResult> fit, const Classificat
   return fit;
 }
 
-/// Whether the worn track has the spacing that the force tells, V / f.
+/// Adds the comparison of the worn track with the spacing V / f of the force.
 Derived with_worn_track(Derived derived, const Conditions& conditions) {
   if (!conditions.worn_track) return derived;
   SpacingComparison compared = compare_spacings(derived.pattern_spacing_m, conditions.worn_track->spacing_m);
@@ -55,7 +55,7 @@ Derived with_worn_track(Derived derived, const Conditions& conditions) {
   return derived;
 }
 
-/// What follows from the fit and from what was measured, at the recording's own speed.
+/// Returns the quantities that follow from the fit and the measurement at the recording's own speed.
 Derived derive(const Recording& recording, const Analysis& analysis) {
   Derived derived;
   if (analysis.fit) derived = derive_from_model(*analysis.fit, recording.conditions());
@@ -82,7 +82,7 @@ Analysis audited(const Recording& recording, Analysis analysis) {
   return analysis;
 }
 
-/// The fitted curve counts its samples in the part that slides: told in samples of the whole recording.
+/// The fitted curve counts its samples in the part that slides: converted to samples of the whole recording.
 std::optional<FitResult> told_of_whole(std::optional<FitResult> fit, const Detected& detected) {
   if (!fit) return fit;
   for (CurvePoint& point : fit->curve) point.sample = detected.sample_of(point.sample);

@@ -12,7 +12,7 @@ const kFields = [
   { key: "time-unit", choice: ["", ...kUnits.time], words: "Unit of time" },
   { key: "force-unit", choice: ["", ...kUnits.force, "1"], words: "Unit of force" },
   { key: "zero", unit: "force", words: "Zero of the force" },
-  { key: "force-view", choice: ["", "spring", "transmitted", "contact"], prefix: "view-", words: "Sensor sees" },
+  { key: "force-view", choice: ["", "spring", "transmitted", "contact"], prefix: "view-", words: "Sensor measures" },
   { key: "step", steps: true, words: "Step" },
   { key: "strokes", choice: ["", "both", "positive", "negative", "segments"], prefix: "strokes-", words: "Strokes" },
   { key: "radius", unit: "length", words: "Radius (torque, rpm)", more: true },
@@ -65,8 +65,8 @@ const optionsForm = (() => {
     }
     const words = (choice) => (field.prefix ? say(field.prefix + choice, choice) : choice);
     return field.choice.map((choice) => {
-      if (choice === "") return field.key === "strokes" ? ["", say("strokes-none", "do not part")] : none;
-      return [choice, choice === "segments" ? say("segments", "stretches of one speed each") : words(choice)];
+      if (choice === "") return field.key === "strokes" ? ["", say("strokes-none", "do not split")] : none;
+      return [choice, choice === "segments" ? say("segments", "sections of constant speed") : words(choice)];
     });
   }
   function control(field) {

@@ -135,7 +135,7 @@
     const add = (count, words) => { if (count) parts.push(`${count} ${words}`); };
     if (info) {
       parts.push(`${current().name}: ${info.rows} ${say("rows", "rows")}, ${info.columns.length} ${say("columns", "columns")}`);
-      if (info.sample_rate_Hz) add(short(info.sample_rate_Hz), say("samples", "samples a second"));
+      if (info.sample_rate_Hz) add(short(info.sample_rate_Hz), say("samples", "samples per second"));
       if (info.steps.length > 1) add(info.steps.length, say("steps", "steps"));
     }
     if (found) {
@@ -251,7 +251,7 @@
   at("paste").addEventListener("click", () => { show("paste-box", true); at("pasted").focus(); });
   at("take-paste").addEventListener("click", () => {
     const text = at("pasted").value;
-    if (!text.trim()) return tell({ message: say("nothing", "There is nothing to take: copy columns of a spreadsheet first.") });
+    if (!text.trim()) return tell({ message: say("nothing", "There is nothing to paste: copy columns of a spreadsheet first.") });
     return open([{ name: "pasted.txt", blob: new Blob([text]) }]);
   });
   for (const kind of ["dragover", "dragleave", "drop"]) {

@@ -13,7 +13,7 @@ const prediction = (() => {
     return `${short(factor * quantity.value)} ${unit}${ends}`;
   }
   function draw(row) {
-    const lines = [[say("regime", "kind of sliding"), kindWords(row.regime)],
+    const lines = [[say("regime", "kind of motion"), kindWords(row.regime)],
       [say("frequency", "frequency"), shown(row.frequency_Hz, 1, "Hz")], [say("period", "period"), shown(row.period_s, 1000, "ms")],
       [say("spacing", "spacing of the slips"), shown(row.periodic_displacement_m, 1000, "mm")]];
     at("predicted").replaceChildren(...lines.flatMap(([name, text]) => [

@@ -91,7 +91,7 @@ int run_or_refuse(std::string_view kind, const char* name, const std::optional<s
   } catch (const Refusal& refusal) {
     return refuse(refusal.error().code + " " + refusal.error().message);
   } catch (const std::bad_alloc&) {
-    return refuse("container_too_large it needs more memory than there is; export a part of it as CSV");
+    return refuse("container_too_large it needs more memory than is available; export a part of it as CSV");
   } catch (const std::exception& error) {
     return refuse(std::string("damaged_container ") + error.what());
   }

@@ -65,10 +65,10 @@ int run(const char* name) {
   l_int32 width = 0;
   l_int32 height = 0;
   if (pixReadHeaderMem(bytes, file.size(), &format, &width, &height, nullptr, nullptr, nullptr) != 0) {
-    return refuse("damaged_surface the image is damaged, or of a kind that is not read; save it as PNG");
+    return refuse("damaged_surface the image is damaged or of an unsupported kind; save it as PNG");
   }
   if (static_cast<std::int64_t>(width) * height > kMostPixels) {
-    return refuse("map_too_large the image has more than 64 million pixels; cut the track out of it");
+    return refuse("map_too_large the image has more than 64 million pixels; crop it to the track");
   }
   Image image(pixReadMem(bytes, file.size()));
   if (image) image = grey(std::move(image));
@@ -80,7 +80,7 @@ int run_or_refuse(const char* name) {
   try {
     return run(name);
   } catch (const std::exception&) {
-    return refuse("map_too_large the image needs more memory than there is; cut the track out of it");
+    return refuse("map_too_large the image needs more memory than is available; crop it to the track");
   }
 }
 

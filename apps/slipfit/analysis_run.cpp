@@ -105,7 +105,7 @@ void refuse_for_pieces(const AnalysisArguments& arguments) {
   const std::string option = option_of_one(arguments);
   if (option.empty()) return;
   throw Failure(ExitCode::WrongUsage,
-                fmt::format("{} is of one recording, and does not go with --strokes or --segments", option));
+                fmt::format("{} applies to one recording and cannot be combined with --strokes or --segments", option));
 }
 
 void refuse_for_several(const AnalysisArguments& arguments) {
@@ -113,10 +113,9 @@ void refuse_for_several(const AnalysisArguments& arguments) {
   if (arguments.document.has("--report")) option = "--report";
   if (!arguments.surface.file.empty()) option = "--surface";
   if (option.empty()) return;
-  throw Failure(ExitCode::WrongUsage,
-                fmt::format("{} belongs to one recording, and {} are named; slipfit batch with these files, --out DIR "
-                            "and --report DIR/index.html writes a page for each",
-                            option, arguments.recording.files.size()));
+  throw Failure(ExitCode::WrongUsage, fmt::format("{} applies to one recording, but {} are given; slipfit batch with "
+                                                  "--out DIR and --report DIR/index.html writes a page for each",
+                                                  option, arguments.recording.files.size()));
 }
 
 std::string text_or_json(const AnalysisArguments& arguments, const slipfit::ManifestEntry& entry,
@@ -138,8 +137,8 @@ void add_analysis_options(CLI::App& command, AnalysisArguments& arguments) {
   command.add_flag("--details", arguments.document.details, "Print all results as text (default: one screen)");
   add_output_option(command, arguments.document, "--cycles", "Write a table of the cycles (CSV)");
   add_report_option(command, arguments.document);
-  command.add_option("--plots", arguments.plots, "Write the report's charts into this folder (SVG)");
-  command.add_flag("--timing", arguments.timing, "Add the seconds that each stage took");
+  command.add_option("--plots", arguments.plots, "Write the charts of the report into this folder (SVG)");
+  command.add_flag("--timing", arguments.timing, "Add the duration of each stage");
 }
 
 void run_analysis(const AnalysisArguments& arguments,

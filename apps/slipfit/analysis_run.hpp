@@ -12,7 +12,7 @@
 #include "slipfit/sweep.hpp"
 #include "surface_options.hpp"
 
-/// What `analyze` and `fit` share: which results to write, and where.
+/// The options that `analyze` and `fit` share: results to write, and their files.
 struct AnalysisArguments {
   RecordingArguments recording;
   DocumentOptions document;
@@ -28,13 +28,13 @@ void add_analysis_options(CLI::App& command, AnalysisArguments& arguments);
 void run_analysis(const AnalysisArguments& arguments,
                   const std::function<slipfit::Analysis(const slipfit::Recording&)>& analysis);
 
-/// The same of several recordings, each on its own: text or JSON only. Throws Failure.
+/// Analyses several recordings separately, with text or JSON as the only output. Throws Failure.
 void run_each(const AnalysisArguments& arguments,
               const std::function<slipfit::Analysis(const slipfit::Recording&)>& analysis);
 
-/// Whether the strokes or segments of the recording are to be read.
+/// Returns true if the strokes or segments of the recording are requested.
 bool is_of_pieces(const AnalysisArguments& arguments);
 
-/// The same of several recordings in one file. Throws Failure.
+/// Analyses several recordings in one file. Throws Failure.
 void run_pieces(const AnalysisArguments& arguments,
                 const std::function<slipfit::SweepAnalysis(const std::vector<slipfit::SweepEntry>&)>& analysis);

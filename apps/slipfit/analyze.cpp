@@ -4,7 +4,8 @@
 #include "commands.hpp"
 
 void add_analyze_command(CLI::App& program, const std::string& command_line) {
-  CLI::App* const command = program.add_subcommand("analyze", "Frequency, cycles and kind of sliding; no model fit");
+  CLI::App* const command =
+      program.add_subcommand("analyze", "Determines frequency, cycles and kind of motion without fitting a model");
   const auto arguments = std::make_shared<AnalysisArguments>();
   arguments->command_line = command_line;
   add_analysis_options(*command, *arguments);

@@ -43,24 +43,26 @@ void add_options(CLI::App& command, BatchArguments& arguments) {
   command.remove_option(command.get_option("REC"));
   command
       .add_option("MANIFEST", arguments.paths,
-                  "CSV: id,file,speed_m_per_s, one row a recording; or recordings and folders of them: their manifest "
-                  "is drafted into --out")
+                  "CSV with the columns id,file,speed_m_per_s, one row for each recording; or recordings and folders, "
+                  "whose manifest is drafted into --out")
       ->required();
-  command.add_option("--out", arguments.out, "Folder of the results; made where it is missing")->required();
-  command.add_option("--jobs", arguments.jobs, "Recordings at a time; without it one a core that this process may use");
+  command.add_option("--out", arguments.out, "Folder of the results; created if it does not exist")->required();
+  command.add_option("--jobs", arguments.jobs,
+                     "Number of recordings fitted in parallel; default: one for each available core");
   add_quantity(command, "--timeout", arguments.timeout_s, slipfit::Dimension::Time, Limits::AboveZero,
-               "Longest time for a recording; then it counts as failed")
+               "Time limit for a recording, after which it counts as failed")
       ->default_str("10min");
-  command.add_flag("--resume", arguments.resume, "Go on with what the folder holds");
-  command.add_option("--shard", arguments.shard, "I/N: the I-th of N parts of the manifest, I from 1");
-  command.add_flag("--joint-groups", arguments.joint_groups, "Fit the recordings of each group together, too");
+  command.add_flag("--resume", arguments.resume, "Continue the batch in this folder");
+  command.add_option("--shard", arguments.shard, "I/N: fit the I-th of N parts of the manifest, I from 1");
+  command.add_flag("--joint-groups", arguments.joint_groups, "Also fit the recordings of each group together");
   command.add_option("--tier", arguments.tier, "Model: auto, sawtooth, undamped, damped, weakening")
       ->capture_default_str();
-  command.add_option("--fix", arguments.fixed, "NAME=VALUE: hold a parameter at a value (SI); may be repeated")
+  command.add_option("--fix", arguments.fixed, "NAME=VALUE: fix a parameter at a value (SI); may be repeated")
       ->allow_extra_args(false);
-  command.add_option("--report", arguments.report,
-                     "Page of the batch (HTML, such as DIR/index.html); those of the recordings stand beside it");
-  command.add_flag("--quiet", arguments.quiet, "No messages on standard error but errors");
+  command.add_option(
+      "--report", arguments.report,
+      "Page of the batch (HTML, such as DIR/index.html); the pages of the recordings are written to the same folder");
+  command.add_flag("--quiet", arguments.quiet, "Print only errors on standard error");
 }
 
 slipfit::Shard shard_from(const std::string& text) {
@@ -118,8 +120,8 @@ slipfit::BatchOutcome run_shown(const slipfit::BatchOptions& options, const Batc
   return std::move(outcome).value();
 }
 
-/// Whether a manifest is named: any file that is one, and a file alone that is no recording either, whose errors are
-/// then those of a manifest.
+/// Returns true if the paths name a manifest: any file that is one, or a single file that is not a recording either,
+/// whose errors are then those of a manifest.
 bool names_manifest(const std::vector<std::string>& paths) {
   std::error_code ignored;
   const std::string& first = paths.front();
@@ -144,7 +146,7 @@ BatchArguments with_manifest(BatchArguments arguments) {
     std::error_code ignored;
     if (std::filesystem::is_directory(path, ignored) || !is_manifest(path)) continue;
     throw Failure(ExitCode::WrongUsage,
-                  fmt::format("'{}' is a manifest: name it alone, or name recordings and folders only", path));
+                  fmt::format("'{}' is a manifest: give it alone, or give only recordings and folders", path));
   }
   if (arguments.shard) {
     std::vector<std::string> draft{"slipfit", "manifest"};
@@ -167,11 +169,12 @@ void run(const BatchArguments& arguments) {
   const std::size_t done = progress.before + progress.fitted;
   if (outcome.end == slipfit::BatchEnd::Stopped) {
     throw Failure(StopSignals::received().value_or(ExitCode::Interrupted),
-                  fmt::format("stopped with {} of {} done; --resume goes on", done, progress.total));
+                  fmt::format("stopped after {} of {} recordings; --resume continues", done, progress.total));
   }
   if (progress.failed > 0) {
-    throw Failure(ExitCode::RecordingsFailed, fmt::format("{} of {} failed: '{}' says why", progress.failed,
-                                                          progress.total, (options.folder / "failures.csv").string()));
+    throw Failure(ExitCode::RecordingsFailed,
+                  fmt::format("{} of {} recordings failed: the reasons are in '{}'", progress.failed, progress.total,
+                              (options.folder / "failures.csv").string()));
   }
   if (!arguments.quiet) say(fmt::format("wrote {} results to '{}' in {:.3g} s", done, arguments.out, progress.seconds));
 }
@@ -180,7 +183,7 @@ void run(const BatchArguments& arguments) {
 
 void add_batch_command(CLI::App& program) {
   CLI::App* const command = program.add_subcommand(
-      "batch", "The fit of every recording of a manifest, or of the files and folders named, into a folder");
+      "batch", "Fits every recording of a manifest, or of files and folders, and writes the results into a folder");
   const auto arguments = std::make_shared<BatchArguments>();
   add_options(*command, *arguments);
   command->callback([arguments] { run(with_manifest(*arguments)); });

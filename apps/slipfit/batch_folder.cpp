@@ -15,14 +15,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What goes with every recording; speed and load fill cells instead.
+/// Returns columns for options that apply to every recording; speed and load fill cells instead.
 std::vector<slipfit::DraftColumn> columns_from(const RecordingArguments& options) {
   static const std::set<std::string_view> kFilled{"speed", "radius", "normal_force"};
   std::vector<slipfit::DraftColumn> columns;
   for (const slipfit::RecordingOption& option : given_options(options)) {
     if (kFilled.contains(option.column)) continue;
     if (option.column == "step") {
-      throw Failure(ExitCode::WrongUsage, "--step belongs to one recording: use slipfit fit");
+      throw Failure(ExitCode::WrongUsage, "--step applies to one recording: use slipfit fit");
     }
     const std::string column(option.column);
     columns.push_back({column, options.said.at(column)});
@@ -36,7 +36,7 @@ bool lies_in(const fs::path& file, const fs::path& folder) {
   return !error && !way.empty() && *way.begin() != "..";
 }
 
-/// What is stated counts.
+/// Fills the cells; stated values take precedence.
 void fill(slipfit::ManifestDraft& draft, const RecordingArguments& options, const Tell& tell) {
   const slipfit::Conditions stated = entry_from(options).conditions;
   for (slipfit::DraftEntry& entry : draft.entries) {
@@ -62,7 +62,7 @@ void check_speeds(const slipfit::ManifestDraft& draft, const BatchFolder& folder
                               "manifest ({} --out runs.csv) and fill it in",
                               folder.recordings.front(), manifest_command(folder)));
   }
-  if (without > 0) tell(fmt::format("{} of {} without a speed: give --speed", without, draft.entries.size()));
+  if (without > 0) tell(fmt::format("{} of {} recordings have no speed: give --speed", without, draft.entries.size()));
 }
 
 /// The draft of an earlier run stays what its results are of.
@@ -71,8 +71,8 @@ void check_same(const std::string& file, const std::string& text) {
   if (!fs::exists(file, ignored)) return;
   if (text_of_file(file) == text) return;
   throw Failure(ExitCode::WrongUsage,
-                fmt::format("'{}' is there and differs from what would be drafted now (other files or options): choose "
-                            "another --out, or name it as the manifest to continue",
+                fmt::format("'{}' exists and differs from the manifest of these files and options: choose another "
+                            "--out, or give it as the manifest to continue",
                             file));
 }
 
@@ -85,7 +85,8 @@ std::string drafted_manifest(const BatchFolder& folder, const Tell& tell) {
   draft = slipfit::writable(std::move(draft));
   for (const slipfit::Error& error : draft.skipped) tell("left out: " + error.message);
   std::erase_if(draft.entries, [&folder](const auto& entry) { return lies_in(entry.file, folder.out); });
-  if (draft.entries.empty()) throw Failure(ExitCode::BadRecording, "no recording found beside the results in --out");
+  if (draft.entries.empty())
+    throw Failure(ExitCode::BadRecording, "no recording found apart from the results in --out");
   fill(draft, folder.options, tell);
   check_speeds(draft, folder, tell);
   make_folder({"--out", folder.out});
@@ -100,7 +101,7 @@ std::string drafted_manifest(const BatchFolder& folder, const Tell& tell) {
 void refuse_recording_options(const RecordingArguments& options) {
   const auto given = given_options(options);
   if (given.empty()) return;
-  throw Failure(ExitCode::WrongUsage, fmt::format("{} does not go with a manifest, whose columns say how each "
-                                                  "recording was made; it goes with a folder",
+  throw Failure(ExitCode::WrongUsage, fmt::format("{} cannot be combined with a manifest, whose columns state how each "
+                                                  "recording was made; it can be combined with a folder",
                                                   given.front().name()));
 }

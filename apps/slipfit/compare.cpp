@@ -32,7 +32,7 @@ struct CompareArguments {
   std::string command_line;
 };
 
-/// What is named for one side.
+/// The arguments of one side.
 struct SideArguments {
   std::vector<std::string> paths;
   std::optional<std::string> group;
@@ -202,19 +202,18 @@ void run(const CompareArguments& arguments) {
 }  // namespace
 
 void add_compare_command(CLI::App& program, const std::string& command_line) {
-  CLI::App* const command =
-      program.add_subcommand("compare", "Do two recordings, groups of repeats or results differ?");
+  CLI::App* const command = program.add_subcommand("compare", "Compares two recordings, groups of repeats, or results");
   const auto arguments = std::make_shared<CompareArguments>();
   arguments->command_line = command_line;
   add_recording_options(*command, arguments->recording);
   command->remove_option(command->get_option("REC"));
   command
       ->add_option("SIDES", arguments->sides,
-                   "A and B: a recording, a folder or manifest of repeats, a result of fit --json or of batch")
+                   "A and B: each a recording, a folder or manifest of repeats, or a result of fit --json or batch")
       ->expected(0, 2);
-  command->add_option("--a", arguments->files_a, "More recordings or results of A");
-  command->add_option("--b", arguments->files_b, "More recordings or results of B");
-  command->add_option("--group", arguments->groups, "Group of the manifest or the results; twice: of A and of B")
+  command->add_option("--a", arguments->files_a, "Further recordings or results of A");
+  command->add_option("--b", arguments->files_b, "Further recordings or results of B");
+  command->add_option("--group", arguments->groups, "Group of the manifest or results; give it twice, for A and B")
       ->expected(1, 2)
       ->allow_extra_args(false);
   add_document_options(*command, arguments->document, "text");

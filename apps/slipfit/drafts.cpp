@@ -54,14 +54,14 @@ void tell_of_replaced(const slipfit::Conditions& stated, const slipfit::DraftEnt
   const std::string file = drafted.file.string();
   const double speed_m_per_s = stated.speed_m_per_s;
   if (drafted.speed_m_per_s && speed_m_per_s > 0.0 && differ(speed_m_per_s, *drafted.speed_m_per_s)) {
-    tell(fmt::format("'{}': {:.4g} m/s by its file or name, but --speed states {:.4g} m/s, which is used", file,
+    tell(fmt::format("'{}': the file or its name states {:.4g} m/s, but --speed states {:.4g} m/s, which is used", file,
                      *drafted.speed_m_per_s, speed_m_per_s));
   }
   const auto& load_N = stated.normal_force_N;
   if (drafted.normal_force_N && load_N && differ(*load_N, *drafted.normal_force_N)) {
     tell(
-        fmt::format("'{}': a normal force of {:.4g} N by its file or name, but --normal-force states {:.4g} N, which "
-                    "is used",
+        fmt::format("'{}': the file or its name states a normal force of {:.4g} N, but --normal-force states {:.4g} N, "
+                    "which is used",
                     file, *drafted.normal_force_N, *load_N));
   }
 }

@@ -8,7 +8,7 @@
 #include "slipfit/io/manifest_draft.hpp"
 #include "slipfit/io/manifest_entry.hpp"
 
-/// Whether a file is a manifest by its line of names.
+/// Returns true if the header line of a file is that of a manifest.
 bool is_manifest(const std::string& file);
 
 using Tell = std::function<void(const std::string&)>;
@@ -16,8 +16,8 @@ using Tell = std::function<void(const std::string&)>;
 /// Throws Failure(BadRecording) where the draft has no recording.
 void check_found(const slipfit::ManifestDraft& draft);
 
-/// What `slipfit manifest` drafts of files and folders, at least one recording. A named file that is none throws
-/// Failure(BadRecording); in a folder it is told of and left out.
+/// Drafts files and folders like `slipfit manifest`, at least one recording. A named file that is not a recording
+/// throws Failure(BadRecording); in a folder it is reported and left out.
 slipfit::ManifestDraft draft_of(const std::vector<std::string>& paths, const slipfit::ReadOptions& options,
                                 const Tell& tell);
 

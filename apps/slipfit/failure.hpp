@@ -5,7 +5,7 @@
 
 #include "slipfit/core/result.hpp"
 
-/// What the shell sees; docs/formats.md lists them.
+/// Exit codes that the shell receives; docs/formats.md lists them.
 enum class ExitCode {
   Analysed = 0,
   RecordingsFailed = 1,  ///< a batch finished, and some of its recordings failed

@@ -34,9 +34,9 @@ void run(const FiguresArguments& arguments) {
 
 void add_figures_command(CLI::App& program) {
   CLI::App* const command =
-      program.add_subcommand("figures", "Figures 2 to 8 of the paper and the map of regimes (CSV and SVG)");
+      program.add_subcommand("figures", "Writes figures 2 to 8 of the paper and the stability map (CSV and SVG)");
   const auto arguments = std::make_shared<FiguresArguments>();
-  command->add_option("--out", arguments->folder, "Write into this folder; made where it is missing");
-  command->add_flag("--quiet", arguments->quiet, "No messages on standard error but errors");
+  command->add_option("--out", arguments->folder, "Write into this folder; created if it does not exist");
+  command->add_flag("--quiet", arguments->quiet, "Print only errors on standard error");
   command->callback([arguments] { run(*arguments); });
 }

@@ -32,8 +32,8 @@ void check_one_group(const FitArguments& arguments, const std::vector<slipfit::M
   }
   if (groups.size() < 2) return;
   throw Failure(ExitCode::WrongUsage,
-                fmt::format("{}: holds {} groups ('{}', '{}'{}), and a joint fit is of one: choose it with --group, or "
-                            "recordings with --only",
+                fmt::format("{}: contains {} groups ('{}', '{}'{}), but a joint fit needs one: choose it with --group, "
+                            "or recordings with --only",
                             *arguments.sweep, groups.size(), groups[0], groups[1], groups.size() > 2 ? ", ..." : ""));
 }
 
@@ -44,8 +44,9 @@ SweepArguments sweep_arguments(const FitArguments& arguments, const CLI::App& co
                                               "--json",  "--details", "--out",  "--report", "--quiet"};
   for (const CLI::Option* const option : command.get_options()) {
     if (option->count() == 0 || kAllowed.contains(option->get_name())) continue;
-    throw Failure(ExitCode::WrongUsage,
-                  option->get_name() + " does not go with --joint: the manifest says how each recording was made");
+    throw Failure(
+        ExitCode::WrongUsage,
+        option->get_name() + " cannot be combined with --joint: the manifest states how each recording was made");
   }
   const AnalysisArguments& analysis = arguments.analysis;
   const std::string name = arguments.group ? *arguments.group : std::filesystem::path(*arguments.sweep).stem().string();
@@ -64,7 +65,7 @@ auto fit_together(const slipfit::FitOptions& options, const DocumentOptions& doc
   };
 }
 
-/// What they have in common by their names.
+/// Returns the common part of the names.
 std::string name_of(const std::vector<slipfit::ManifestEntry>& entries) {
   const std::string& group = entries.front().group;
   const bool is_common = std::all_of(entries.begin(), entries.end(),
@@ -80,7 +81,7 @@ SweepArguments sweep_of_files(const FitArguments& arguments, const CLI::App& com
        {"--cycles", "--curve", "--plots", "--timing", "--mass", "--sensor-bandwidth", "--sensor-resonance"}) {
     if (command.get_option(single)->count() == 0) continue;
     throw Failure(ExitCode::WrongUsage,
-                  fmt::format("{} belongs to one recording, and several are named: they are fitted together", single));
+                  fmt::format("{} applies to one recording, but several are fitted together", single));
   }
   const AnalysisArguments& analysis = arguments.analysis;
   const Tell tell = teller(analysis.document);
@@ -99,7 +100,7 @@ void fit_each(const FitArguments& arguments, const slipfit::FitOptions& options)
   run_each(arguments.analysis,
            [&options](const slipfit::Recording& recording) { return slipfit::analyze_and_fit(recording, options); });
   teller(arguments.analysis.document)(
-      "each recording was fitted on its own; --joint before the files fits them together, with one set of parameters");
+      "each recording was fitted separately; --joint before the files fits them together with one set of parameters");
 }
 
 void run(const FitArguments& arguments, const CLI::App& command) {
@@ -110,7 +111,7 @@ void run(const FitArguments& arguments, const CLI::App& command) {
   if (is_joint_of_files(arguments)) return run_sweep(sweep_of_files(arguments, command), options);
   if (arguments.sweep) return run_sweep(sweep_arguments(arguments, command), options);
   if (arguments.group || !arguments.only.empty()) {
-    throw Failure(ExitCode::WrongUsage, "--group and --only choose recordings of a manifest: give it with --joint");
+    throw Failure(ExitCode::WrongUsage, "--group and --only select recordings of a manifest: give it with --joint");
   }
   if (files.empty()) throw Failure(ExitCode::WrongUsage, "REC is required");
   if (is_of_pieces(arguments.analysis)) {
@@ -127,29 +128,29 @@ void run(const FitArguments& arguments, const CLI::App& command) {
 }  // namespace
 
 void add_fit_command(CLI::App& program, const std::string& command_line) {
-  CLI::App* const command =
-      program.add_subcommand("fit", "The analysis, then the model fitted to it and what it predicts at this speed");
+  CLI::App* const command = program.add_subcommand("fit", "Analyses recordings and fits the stick-slip model");
   const auto arguments = std::make_shared<FitArguments>();
   arguments->analysis.command_line = command_line;
   add_analysis_options(*command, arguments->analysis);
   command->get_option("REC")->required(false)->description(
-      "Recording; several are fitted each on its own (--joint: together)");
+      "Recordings; several are fitted separately (--joint: together)");
   command->add_option("--tier", arguments->tier, "Model: auto, sawtooth, undamped, damped, weakening, velocity (joint)")
       ->capture_default_str();
-  command->add_option("--fix", arguments->fixed, "NAME=VALUE: hold a parameter at a value (SI); may be repeated")
+  command->add_option("--fix", arguments->fixed, "NAME=VALUE: fix a parameter at a value (SI); may be repeated")
       ->allow_extra_args(false);
   add_output_option(*command, arguments->analysis.document, "--curve",
                     "Write time, force, fitted force and residual (CSV)");
   command->add_option("--surface", arguments->analysis.surface.file,
-                      "Profile or image of the worn track: is its pattern that of the slips?");
+                      "Profile or image of the worn track; its pattern is compared with the slips");
   add_profile_options(*command, arguments->analysis.surface);
   command
-      ->add_option("--joint", arguments->sweep, "Manifest (CSV), or several recordings: one set of parameters for them")
+      ->add_option("--joint", arguments->sweep,
+                   "Manifest (CSV) or several recordings, fitted with one set of parameters")
       ->check([](const std::string& value) {
-        return value.starts_with("--") ? "needs a manifest or recordings right behind it, other options after these"
+        return value.starts_with("--") ? "must be followed by a manifest or recordings; other options come after these"
                                        : "";
       });
-  command->add_option("--group", arguments->group, "With --joint: this group of the manifest");
-  command->add_option("--only", arguments->only, "With --joint: these recordings (ID,ID,...)")->delimiter(',');
+  command->add_option("--group", arguments->group, "With --joint: fit this group of the manifest");
+  command->add_option("--only", arguments->only, "With --joint: fit these recordings (ID,ID,...)")->delimiter(',');
   command->callback([arguments, command] { run(*arguments, *command); });
 }

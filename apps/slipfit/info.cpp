@@ -36,10 +36,9 @@ void run(const InfoArguments& arguments) {
 
 void add_info_command(CLI::App& program) {
   CLI::App* const command =
-      program.add_subcommand("info", "What a file holds: columns, units, clock, steps; and what would be read of it");
+      program.add_subcommand("info", "Lists the columns, units, clock and steps of a file and what would be read");
   const auto arguments = std::make_shared<InfoArguments>();
-  command->add_option("FILE", arguments->recording.files, "Recording; several are described one after another")
-      ->required();
+  command->add_option("FILE", arguments->recording.files, "Files; several are described one after another")->required();
   add_options_where(*command, arguments->recording, [](const slipfit::RecordingOption& option) {
     return option.of == slipfit::RecordingOption::Of::Reading;
   });

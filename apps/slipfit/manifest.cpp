@@ -21,12 +21,13 @@ struct ManifestArguments {
   bool quiet = false;
 };
 
-/// What the user has to fill in or should look at.
+/// Prints what the user has to fill in or should check.
 void tell_of(const slipfit::ManifestDraft& draft) {
   for (const slipfit::Error& error : draft.skipped) say("left out: " + error.message);
   const auto without_speed =
       std::count_if(draft.entries.begin(), draft.entries.end(), [](const auto& entry) { return !entry.speed_m_per_s; });
-  if (without_speed > 0) say(fmt::format("{} of {} without a speed: fill it in", without_speed, draft.entries.size()));
+  if (without_speed > 0)
+    say(fmt::format("{} of {} recordings have no speed: fill it in", without_speed, draft.entries.size()));
 }
 
 void run(const ManifestArguments& arguments) {
@@ -48,10 +49,10 @@ void run(const ManifestArguments& arguments) {
 
 void add_manifest_command(CLI::App& program) {
   CLI::App* const command =
-      program.add_subcommand("manifest", "Draft of a manifest: recordings, speeds and loads as columns and names tell");
+      program.add_subcommand("manifest", "Drafts a manifest: recordings, speeds and loads from columns and file names");
   const auto arguments = std::make_shared<ManifestArguments>();
   command->add_option("PATH", arguments->paths, "Folders and files")->required();
   command->add_option("--out", arguments->out, "Write it to this file");
-  command->add_flag("--quiet", arguments->quiet, "No messages on standard error but errors");
+  command->add_flag("--quiet", arguments->quiet, "Print only errors on standard error");
   command->callback([arguments] { run(*arguments); });
 }

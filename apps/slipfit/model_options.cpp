@@ -32,7 +32,7 @@ std::optional<slipfit::VelocityFriction> velocity_friction(const ModelArguments&
   return value_or_refuse(slipfit::VelocityFriction::create(
       static_N, required(arguments.f0_N, "--f0", "the constant part of F_k (N)"),
       required(arguments.f1_N, "--f1", "the part of F_k that depends on the speed (N)"),
-      required(arguments.alpha_s_per_m, "--alpha", "its rate with the speed (s/m)")));
+      required(arguments.alpha_s_per_m, "--alpha", "its rate of change with speed (s/m)")));
 }
 
 }  // namespace
@@ -42,19 +42,18 @@ void add_model_options(CLI::App& command, ModelArguments& arguments) {
   add_number(command, "--stiffness", arguments.stiffness_N_per_m, "N/m", AboveZero, "Tangential stiffness (N/m)");
   add_number(command, "--mass", arguments.mass_kg, "kg", AboveZero, "Oscillating mass (kg)");
   add_quantity(command, "--natural-frequency", arguments.natural_frequency_rad_per_s, Dimension::AngularSpeed,
-               AboveZero, "sqrt(k/m) (rad/s), in place of --mass");
+               AboveZero, "sqrt(k/m) (rad/s), instead of --mass");
   add_quantity(command, "--damping-ratio", arguments.damping_ratio, Dimension::Dimensionless, None,
-               "c / (2 sqrt(k m)), at least 0; from 1 on there is no stick-slip")
+               "c / (2 sqrt(k m)), at least 0; at 1 and above there is no stick-slip")
       ->default_str("0");
   add_quantity(command, "--static-friction", arguments.static_friction_N, Dimension::Force, None, "F_s (N)");
   add_quantity(command, "--kinetic-friction", arguments.kinetic_friction_N, Dimension::Force, None,
                "F_k (N), at most F_s");
-  add_quantity(
-      command, "--f0", arguments.f0_N, Dimension::Force, None,
-      "Friction that depends on the sliding speed v: f0 + f1 exp(alpha v), in place of --kinetic-friction (N)");
+  add_quantity(command, "--f0", arguments.f0_N, Dimension::Force, None,
+               "Friction that depends on the sliding speed v: f0 + f1 exp(alpha v), instead of --kinetic-friction (N)");
   add_quantity(command, "--f1", arguments.f1_N, Dimension::Force, None, "See --f0 (N); f0 + f1 at most F_s");
   add_number(command, "--alpha", arguments.alpha_s_per_m, "s/m", None,
-             "See --f0 (s/m); below 0 friction falls with the speed if f1 > 0");
+             "See --f0 (s/m); if negative, friction decreases with speed for f1 > 0");
 }
 
 bool model_given(const ModelArguments& arguments) {

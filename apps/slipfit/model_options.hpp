@@ -20,7 +20,7 @@ struct Model {
 
 void add_model_options(CLI::App& command, ModelArguments& arguments);
 
-/// Whether any of the options was given.
+/// Returns true if any of the options was given.
 bool model_given(const ModelArguments& arguments);
 
 /// Throws Failure(WrongUsage).

@@ -61,7 +61,7 @@ void check_place(const OutputFile& output) {
   const fs::path path(output.file);
   if (output.file.empty() || fs::is_directory(path, ignored)) {
     throw Failure(ExitCode::WrongUsage,
-                  fmt::format("{}: '{}' is a folder, expected a file's name", output.option, output.file));
+                  fmt::format("{}: '{}' is a folder, expected a file name", output.option, output.file));
   }
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
   if (!fs::is_directory(folder, ignored)) {
@@ -78,9 +78,9 @@ bool DocumentOptions::has(const std::string& option) const {
 }
 
 void add_document_options(CLI::App& command, DocumentOptions& options, const std::string& text) {
-  command.add_flag("--json", options.json, "One JSON document in place of the " + text);
+  command.add_flag("--json", options.json, "Print one JSON document instead of the " + text);
   add_output_option(command, options, "--out", "Write the " + text + " or the JSON document to this file");
-  command.add_flag("--quiet", options.quiet, "No messages on standard error but errors");
+  command.add_flag("--quiet", options.quiet, "Print only errors on standard error");
 }
 
 void add_output_option(CLI::App& command, DocumentOptions& options, const std::string& option,
@@ -95,9 +95,9 @@ void add_output_option(CLI::App& command, DocumentOptions& options, const std::s
 
 void refuse_report_name(const std::string& file) {
   throw Failure(ExitCode::WrongUsage,
-                fmt::format("--report: '{}' is no name of a page; pages are HTML: name it '{}'{}", file,
+                fmt::format("--report: '{}' is not the name of an HTML page; use '{}'{}", file,
                             fs::path(file).replace_extension(".html").string(),
-                            fs::path(file).extension() == ".pdf" ? " and print it into a PDF from the browser" : ""));
+                            fs::path(file).extension() == ".pdf" ? " and print it to PDF from the browser" : ""));
 }
 
 void check_report_name(const std::string& file) {
@@ -112,7 +112,7 @@ void add_report_option(CLI::App& command, DocumentOptions& options) {
         check_report_name(file);
         options.outputs.push_back({"--report", file});
       },
-      "Write a page to look at and to print (HTML, one file)");
+      "Write a page with charts (one HTML file)");
 }
 
 void check_outputs(const std::vector<OutputFile>& outputs, const std::string& input,
@@ -125,7 +125,7 @@ void check_outputs(const std::vector<OutputFile>& outputs, const std::string& in
     }
     for (std::size_t j = 0; j < i; ++j) {
       if (!same_file(outputs[i].file, outputs[j].file)) continue;
-      throw Failure(ExitCode::WrongUsage, fmt::format("{} and {} name the same file '{}', choose two",
+      throw Failure(ExitCode::WrongUsage, fmt::format("{} and {} name the same file '{}', choose different files",
                                                       outputs[j].option, outputs[i].option, outputs[i].file));
     }
   }
@@ -141,7 +141,7 @@ void make_folder(const OutputFile& folder) {
   fs::create_directory(folder.file, error);
   if (!error) return;
   throw Failure(ExitCode::WrongUsage,
-                fmt::format("{}: cannot make the folder '{}': {}", folder.option, folder.file, error.message()));
+                fmt::format("{}: cannot create the folder '{}': {}", folder.option, folder.file, error.message()));
 }
 
 void write_file(const OutputFile& output, const std::string& content) {

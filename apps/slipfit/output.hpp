@@ -11,7 +11,7 @@ struct OutputFile {
   std::string file;
 };
 
-/// What every command that writes a document takes.
+/// The options of every command that writes a document.
 struct DocumentOptions {
   bool json = false;
   bool quiet = false;
@@ -21,7 +21,7 @@ struct DocumentOptions {
   [[nodiscard]] bool has(const std::string& option) const;
 };
 
-/// `text`: what stands in the help for the document without --json.
+/// Adds the options; `text` is the word for the document without --json in the help.
 void add_document_options(CLI::App& command, DocumentOptions& options, const std::string& text);
 
 /// An option that names a further file.
@@ -29,21 +29,21 @@ void add_output_option(CLI::App& command, DocumentOptions& options, const std::s
 
 /// Throws Failure(WrongUsage): pages are HTML, whatever the name says.
 [[noreturn]] void refuse_report_name(const std::string& file);
-/// The same for a name with an ending of another kind of file ("x.pdf").
+/// Refuses a name with the ending of another kind of file ("x.pdf").
 void check_report_name(const std::string& file);
 
 /// --report
 void add_report_option(CLI::App& command, DocumentOptions& options);
 
-/// Before any work: throws Failure(WrongUsage) where an output is the input (empty: there is none), is named twice, is
-/// a folder, or has no folder.
+/// Checks outputs before any work: throws Failure(WrongUsage) if an output is the input (empty without one), is named
+/// twice, is a folder, or has no folder.
 void check_outputs(const std::vector<OutputFile>& outputs, const std::string& input,
                    const std::string& words_for_input = "recording");
 
 /// Made where it is missing, but not its parent folders: a mistyped path creates nothing. Throws Failure(WrongUsage).
 void make_folder(const OutputFile& folder);
 
-/// Through a temporary file beside it and a rename: readers see the old content or the new, never a part.
+/// Writes through a temporary file next to it and a rename: readers see the old content or the new, never a part.
 /// What is no regular file (a pipe, /dev/stdout) is written directly.
 void write_file(const OutputFile& output, const std::string& content);
 

@@ -30,7 +30,7 @@ std::optional<slipfit::PlanTarget> target_from(const PlanArguments& arguments) {
   slipfit::PlanTarget target{arguments.target.value_or(kSpacing), std::nullopt};
   if (arguments.speed) {
     if (target.name != kSpacing) {
-      throw Failure(ExitCode::WrongUsage, fmt::format("--at goes with --for {} only", kSpacing));
+      throw Failure(ExitCode::WrongUsage, fmt::format("--at can only be combined with --for {}", kSpacing));
     }
     target.speed_m_per_s = quantity("--at", *arguments.speed, slipfit::Dimension::Speed, Limits::AboveZero);
   } else if (target.name == kSpacing) {
@@ -60,14 +60,14 @@ void run(const PlanArguments& arguments) {
 }  // namespace
 
 void add_plan_command(CLI::App& program) {
-  CLI::App* const command = program.add_subcommand(
-      "plan", "Which speed, sampling rate and duration to measure next, and what limits each parameter");
+  CLI::App* const command =
+      program.add_subcommand("plan", "Recommends the speed, sampling rate and duration of the next measurement");
   const auto arguments = std::make_shared<PlanArguments>();
-  command->add_option("FIT.json", arguments->file, "Document of slipfit fit --json")->required();
-  command->add_option(
-      "--for", arguments->target,
-      "Parameter to narrow, by its key in the document, or periodic_displacement_m; else the worst known");
-  command->add_option("--at", arguments->speed, "Speed of the predicted spacing to narrow");
+  command->add_option("FIT.json", arguments->file, "Document written by slipfit fit --json")->required();
+  command->add_option("--for", arguments->target,
+                      "Parameter whose interval should shrink, by its key in the document, or periodic_displacement_m; "
+                      "default: the least well known");
+  command->add_option("--at", arguments->speed, "Speed at which the predicted spacing is needed");
   add_document_options(*command, arguments->document, "text");
   command->callback([arguments] { run(*arguments); });
 }

@@ -27,15 +27,16 @@ struct PredictArguments {
 };
 
 void add_options(CLI::App& command, PredictArguments& arguments) {
-  command.add_option("FIT.json", arguments.file, "Document of slipfit fit --json; or the model options in its place");
+  command.add_option("FIT.json", arguments.file, "Document written by slipfit fit --json; or give the model options");
   command.add_option("--speeds", arguments.speeds,
-                     "A:B:N, N speeds from A to B in equal ratios: 1mm/s:1m/s:50; or a list: 5mm/s,10mm/s");
-  add_quantity(command, "--normal-force", arguments.normal_force_N, slipfit::Dimension::Force, Limits::AboveZero,
-               "Predict under this load: 2.3, 2.3N; of a fit whose recordings state theirs (default: their mean)");
+                     "A:B:N, N speeds from A to B, logarithmically spaced: 1mm/s:1m/s:50; or a list: 5mm/s,10mm/s");
+  add_quantity(
+      command, "--normal-force", arguments.normal_force_N, slipfit::Dimension::Force, Limits::AboveZero,
+      "Normal force of the prediction: 2.3, 2.3N; needs a fit whose recordings state theirs (default: their mean)");
   add_model_options(command, arguments.model);
   add_document_options(command, arguments.document, "table");
   add_output_option(command, arguments.document, "--csv",
-                    "Write one row a speed: value, low and high of every quantity (CSV)");
+                    "Write one row for each speed: value, low and high of every quantity (CSV)");
 }
 
 slipfit::FitDocument document_from(const PredictArguments& arguments) {
@@ -98,8 +99,8 @@ void run(const PredictArguments& arguments) {
 }  // namespace
 
 void add_predict_command(CLI::App& program) {
-  CLI::App* const command =
-      program.add_subcommand("predict", "Period, frequency and spacing at other speeds; where stick-slip ends");
+  CLI::App* const command = program.add_subcommand(
+      "predict", "Predicts period, frequency and spacing at other speeds and the end of stick-slip");
   const auto arguments = std::make_shared<PredictArguments>();
   add_options(*command, *arguments);
   command->callback([arguments] { run(*arguments); });

@@ -14,6 +14,7 @@
 
 #include "commands.hpp"
 #include "slipfit/core/units.hpp"
+#include "slipfit/io/manifest_entry.hpp"
 
 namespace {
 
@@ -75,6 +76,7 @@ std::vector<std::string> with_quantities_joined(const std::vector<std::string>& 
 struct Command {
   std::string_view name;
   void (*add)(CLI::App& program, const std::string& typed_line);
+  std::string_view examples;  ///< One command line each.
 };
 
 template <void (*Add)(CLI::App&)>
@@ -82,23 +84,63 @@ void without_line(CLI::App& program, const std::string& /*typed_line*/) {
   Add(program);
 }
 
-/// In the order of the help.
+/// All commands in the order of the help.
 constexpr std::array kCommands = std::to_array<Command>({
-    {"analyze", add_analyze_command},
-    {"fit", add_fit_command},
-    {"info", without_line<add_info_command>},
-    {"simulate", without_line<add_simulate_command>},
-    {"predict", without_line<add_predict_command>},
-    {"plan", without_line<add_plan_command>},
-    {"figures", without_line<add_figures_command>},
-    {"compare", add_compare_command},
+    {"analyze", add_analyze_command,
+     "  slipfit analyze run7.csv\n"
+     "  slipfit analyze run7.csv --window 12:60 --json\n"},
+    {"fit", add_fit_command,
+     "  slipfit fit run7.csv --speed 10mm/s\n"
+     "  slipfit fit run7.csv --speed 10mm/s --normal-force 5N --zero 0.02 --report run7.html\n"
+     "  slipfit fit --joint sweep.csv --group dry --json --out dry.json\n"},
+    {"info", without_line<add_info_command>, "  slipfit info run7.csv\n"},
+    {"simulate", without_line<add_simulate_command>,
+     "  slipfit simulate --stiffness 5000 --natural-frequency 900 --damping-ratio 0.05 --static-friction 4\n"
+     "      --kinetic-friction 3 --speed 10mm/s --duration 2 --sample-rate 5kHz --noise 0.015 --out run.csv\n"},
+    {"predict", without_line<add_predict_command>,
+     "  slipfit predict fit.json --speeds 1mm/s:1m/s:20\n"
+     "  slipfit predict fit.json --speeds 5mm/s,10mm/s --csv prediction.csv\n"},
+    {"plan", without_line<add_plan_command>, "  slipfit plan fit.json --for damping_ratio\n"},
+    {"figures", without_line<add_figures_command>, "  slipfit figures --out figures\n"},
+    {"compare", add_compare_command,
+     "  slipfit compare dry.csv wet.csv --speed 10mm/s\n"
+     "  slipfit compare runs.csv --group dry --group wet --report comparison.html\n"},
 #ifndef SLIPFIT_SINGLE_PROCESS
-    {"batch", without_line<add_batch_command>},
-    {"merge", without_line<add_merge_command>},
+    {"batch", without_line<add_batch_command>,
+     "  slipfit batch runs.csv --out results\n"
+     "  slipfit batch *.csv --out results --speed 10mm/s --report results/index.html\n"
+     "  slipfit batch runs.csv --out results --resume\n"},
+    {"merge", without_line<add_merge_command>, "  slipfit merge shard1 shard2 --out results\n"},
 #endif
-    {"manifest", without_line<add_manifest_command>},
-    {"surface", add_surface_command},
+    {"manifest", without_line<add_manifest_command>, "  slipfit manifest recordings --out runs.csv\n"},
+    {"surface", add_surface_command,
+     "  slipfit surface profile.csv\n"
+     "  slipfit surface track.png --pixel 2.1um --along x\n"},
 });
+
+/// The heading under which the help lists an option; empty for options that only one command has.
+std::string group_of(const std::string& name) {
+  for (const slipfit::RecordingOption& option : slipfit::recording_options()) {
+    if (option.name() != name) continue;
+    return option.of == slipfit::RecordingOption::Of::Conditions ? "Recording and instrument" : "Contents of the file";
+  }
+  constexpr auto kOutput = std::to_array<std::string_view>(
+      {"--json", "--out", "--quiet", "--details", "--cycles", "--report", "--plots", "--timing", "--curve", "--csv"});
+  constexpr auto kSurface = std::to_array<std::string_view>(
+      {"--surface", "--unit", "--pitch", "--pixel", "--along", "--x-column", "--z-column"});
+  if (std::find(kOutput.begin(), kOutput.end(), name) != kOutput.end()) return "Output";
+  return std::find(kSurface.begin(), kSurface.end(), name) != kSurface.end() ? "Worn surface" : "";
+}
+
+/// Groups the options of a command in its help and adds the examples.
+void arrange_help(CLI::App& program, const Command& command) {
+  CLI::App* const added = program.get_subcommand(std::string(command.name));
+  for (CLI::Option* const option : added->get_options()) {
+    const std::string group = group_of(option->get_name());
+    if (!group.empty()) option->group(group);
+  }
+  added->footer("Examples:\n" + std::string(command.examples) + "\n" + program.get_footer());
+}
 
 /// Only the command that is called, where one is: all options of all of them would be a fifth of the start-up.
 void add_commands(CLI::App& program, const std::string& first_argument, const std::string& typed_line) {
@@ -106,7 +148,9 @@ void add_commands(CLI::App& program, const std::string& first_argument, const st
   const bool is_one = std::any_of(kCommands.begin(), kCommands.end(), is_called);
   if (first_argument == "--version") return;
   for (const Command& command : kCommands) {
-    if (!is_one || is_called(command)) command.add(program, typed_line);
+    if (is_one && !is_called(command)) continue;
+    command.add(program, typed_line);
+    arrange_help(program, command);
   }
 }
 
@@ -114,8 +158,8 @@ void run(CLI::App& program, std::vector<std::string> words, const std::string& t
   program.set_version_flag("--version", std::string("slipfit ") + SLIPFIT_VERSION);
   program.require_subcommand(1);
   program.footer(
-      "Exit codes: 0 analysed, 1 some recordings of a batch failed, 2 wrong usage, 3 recording unreadable or without "
-      "anything usable.");
+      "Exit codes: 0 success, 1 some recordings of a batch failed, 2 wrong usage, 3 recording unreadable or without "
+      "usable data.");
   add_commands(program, words.size() > 1 ? words[1] : "", typed_line);
   check_command(program, words.size() > 1 ? words[1] : "");
   words = with_quantities_joined({words.begin() + std::min<std::ptrdiff_t>(1, std::ssize(words)), words.end()});
@@ -137,7 +181,7 @@ Outcome run_program(std::vector<std::string> words, const std::string& command_l
   } catch (const Failure& failure) {
     return {failure.exit(), failure.what(), failure.code()};
   } catch (const std::bad_alloc&) {
-    return {ExitCode::BadRecording, "not enough memory for this recording: use --window to take a part of it",
+    return {ExitCode::BadRecording, "not enough memory for this recording: use --window to read a part of it",
             "out_of_memory"};
   } catch (const std::exception& error) {
     return {ExitCode::BadRecording, std::string("internal error, please report it with the recording: ") + error.what(),

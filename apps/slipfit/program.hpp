@@ -5,7 +5,7 @@
 
 #include "failure.hpp"
 
-/// How a command ended; message and code are empty where it did its work.
+/// The outcome of a command; message and code are empty if it succeeded.
 struct Outcome {
   ExitCode exit = ExitCode::Analysed;
   std::string message;  ///< one line

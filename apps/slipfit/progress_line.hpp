@@ -18,7 +18,7 @@ class ProgressLine {
   ProgressLine& operator=(ProgressLine&&) = delete;
 
   void show(const slipfit::BatchProgress& progress);
-  /// On a terminal alone.
+  /// Shows the text if standard error is a terminal.
   void show(const std::string& text);
 
  private:

@@ -53,6 +53,6 @@ const Value& required(const std::optional<Value>& value, const std::string& opti
   return *value;
 }
 
-/// `--tier` and `--fix` as typed.
+/// Returns the options `--tier` and `--fix` as typed.
 slipfit::FitOptions fit_options_from(const std::string& tier, const std::vector<std::string>& fixed,
                                      slipfit::FitKind kind);

@@ -60,7 +60,8 @@ slipfit::ManifestEntry entry_at(const RecordingArguments& arguments, const std::
 }
 
 slipfit::ManifestEntry entry_from(const RecordingArguments& arguments) {
-  if (arguments.speeds.size() > 1) throw Failure(ExitCode::WrongUsage, "--speed: one recording has one, give it once");
+  if (arguments.speeds.size() > 1)
+    throw Failure(ExitCode::WrongUsage, "--speed: one recording has one speed, give it once");
   return entry_at(arguments, arguments.speeds.empty() ? std::nullopt : std::optional(arguments.speeds.front()));
 }
 

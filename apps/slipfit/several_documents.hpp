@@ -14,7 +14,7 @@ class SeveralDocuments {
 
   /// A document with its line end.
   void add(const std::string& document);
-  /// What kept a recording from being read: thrown where it is the only one, else said at once.
+  /// Adds the reason why a recording could not be read: thrown if it is the only one, otherwise printed at once.
   void add_failure(ExitCode exit, const slipfit::Error& error);
   /// Writes the documents. Throws Failure(RecordingsFailed) behind them where recordings failed, Failure(BadRecording)
   /// where all did.

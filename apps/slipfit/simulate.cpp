@@ -38,23 +38,24 @@ void add_options(CLI::App& command, SimulateArguments& arguments) {
   });
   add_quantity(command, "--duration", arguments.duration_s, Dimension::Time, AboveZero, "Length of the recording (s)");
   add_quantity(command, "--sample-rate", arguments.sample_rate_Hz, Dimension::Frequency, AboveZero,
-               "Samples a second (Hz)");
+               "Sampling rate (Hz)");
   add_quantity(command, "--noise", options.noise_rms_N, Dimension::Force, NotNegative, "White noise (N rms)")
       ->default_str("0");
   add_quantity(command, "--jitter", options.static_friction_sd_N, Dimension::Force, NotNegative,
                "Standard deviation of F_s from slip to slip (N)")
       ->default_str("0");
-  add_quantity(command, "--offset", options.offset_N, Dimension::Force, None, "Added to the force (N)")
+  add_quantity(command, "--offset", options.offset_N, Dimension::Force, None, "Offset added to the force (N)")
       ->default_str("0");
-  add_number(command, "--drift", options.drift_N_per_s, "N/s", None, "Added to the force (N/s)")->default_str("0");
+  add_number(command, "--drift", options.drift_N_per_s, "N/s", None, "Drift added to the force (N/s)")
+      ->default_str("0");
   add_quantity(command, "--hum", options.hum_N, Dimension::Force, NotNegative, "Amplitude of mains hum (N)")
       ->default_str("0");
   add_quantity(command, "--hum-frequency", options.hum_frequency_Hz, Dimension::Frequency, AboveZero,
                "Mains frequency (Hz)")
       ->default_str("50");
-  command.add_option("--seed", options.seed, "Same seed, same numbers")->capture_default_str();
-  command.add_option("--out", arguments.out, "Write to this file, not to standard output");
-  command.add_flag("--quiet", arguments.quiet, "No messages on standard error but errors");
+  command.add_option("--seed", options.seed, "Seed of the random numbers")->capture_default_str();
+  command.add_option("--out", arguments.out, "Write to this file instead of standard output");
+  command.add_flag("--quiet", arguments.quiet, "Print only errors on standard error");
 }
 
 slipfit::SimulationOptions options_from(const SimulateArguments& arguments, slipfit::ForceView view) {
@@ -110,7 +111,7 @@ void run(const SimulateArguments& arguments) {
 }  // namespace
 
 void add_simulate_command(CLI::App& program) {
-  CLI::App* const command = program.add_subcommand("simulate", "A recording of the model, with noise (CSV)");
+  CLI::App* const command = program.add_subcommand("simulate", "Simulates a recording of the model, with noise (CSV)");
   const auto arguments = std::make_shared<SimulateArguments>();
   add_options(*command, *arguments);
   command->callback([arguments] { run(*arguments); });

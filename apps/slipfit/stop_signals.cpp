@@ -25,7 +25,7 @@ extern "C" void keep_suspension(int /*signal*/) {
 
 /// A pipe or a disk blocks. The files are complete enough for --resume.
 extern "C" void end_now(int /*signal*/) {
-  constexpr std::string_view kMessage = "slipfit: stopped; --resume goes on\n";
+  constexpr std::string_view kMessage = "slipfit: stopped; --resume continues\n";
   [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, kMessage.data(), kMessage.size());
   ::_exit(128 + static_cast<int>(received_signal));
 }

@@ -4,8 +4,8 @@
 
 #include "failure.hpp"
 
-/// While it lives, Ctrl-C and SIGTERM are remembered instead of ending the program; the second one ends it at once, as
-/// do two seconds in which the program has not come to its end. Ctrl-Z is remembered, too.
+/// While it exists, Ctrl-C and SIGTERM are recorded instead of ending the program; a second one ends it at once, as do
+/// two seconds in which the program has not ended. Ctrl-Z is recorded, too.
 class StopSignals {
  public:
   StopSignals();
@@ -15,8 +15,8 @@ class StopSignals {
   StopSignals(StopSignals&&) = delete;
   StopSignals& operator=(StopSignals&&) = delete;
 
-  /// What the shell is to see: 128 + signal.
+  /// Returns the exit code that the shell expects: 128 + signal.
   [[nodiscard]] static std::optional<ExitCode> received();
-  /// Whether there was a Ctrl-Z (SIGTSTP) since the last call.
+  /// Returns true if Ctrl-Z (SIGTSTP) was received since the last call.
   [[nodiscard]] static bool take_suspension();
 };

@@ -53,20 +53,20 @@ void add_profile_options(CLI::App& command, SurfaceArguments& arguments) {
   slipfit::ProfileOptions& options = arguments.options;
   command.add_option_function<std::string>(
       "--unit", [&options](const std::string& text) { options.unit_m = length_unit_m(text); },
-      "Of lengths and heights of a text that names none: um");
+      "Unit of lengths and heights in a text file without units: um");
   add_quantity(command, "--pitch", options.pitch_m, slipfit::Dimension::Length, Limits::AboveZero,
-               "Distance of the points of a text of heights alone: 1um");
+               "Distance between points in a text file that contains only heights: 1um");
   add_quantity(command, "--pixel", options.pixel_m, slipfit::Dimension::Length, Limits::AboveZero,
-               "Size of an image's pixel on the surface: 2.1um");
+               "Size of a pixel of the image on the surface: 2.1um");
   command.add_option_function<std::string>(
       "--along", [&options](const std::string& text) { options.along_rad = direction(text); },
-      "Direction of sliding on an area: x, y, or degrees from x");
-  command.add_option("--x-column", options.x_column, "Places along the track: name or 1-based number");
-  command.add_option("--z-column", options.z_column, "Heights: name or 1-based number");
+      "Sliding direction on an area: x, y, or degrees from x");
+  command.add_option("--x-column", options.x_column, "Column of positions along the track: name or 1-based number");
+  command.add_option("--z-column", options.z_column, "Column of heights: name or 1-based number");
 }
 
 void add_surface_command(CLI::App& program, const std::string& command_line) {
-  CLI::App* const command = program.add_subcommand("surface", "Spacing of the pattern on a worn surface");
+  CLI::App* const command = program.add_subcommand("surface", "Measures the spacing of the pattern on a worn surface");
   const auto arguments = std::make_shared<SurfaceCommand>();
   arguments->command_line = command_line;
   command->add_option("FILE", arguments->surface.file, "Profile (text, X3P, SDF) or image (PNG, TIFF, JPEG)")

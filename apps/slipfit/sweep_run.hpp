@@ -9,7 +9,7 @@
 #include "slipfit/io/manifest_entry.hpp"
 #include "slipfit/sweep.hpp"
 
-/// What is written of several recordings, and where.
+/// The documents to write for several recordings, and their files.
 struct SweepDocument {
   std::string name;  ///< the document's id
   DocumentOptions options;
@@ -31,7 +31,7 @@ slipfit::SweepAnalysis analyze_with_progress(const std::vector<slipfit::SweepEnt
 void write_sweep(const SweepDocument& document, const std::vector<slipfit::SweepEntry>& entries,
                  const slipfit::SweepAnalysis& sweep);
 
-/// Those of a manifest, or of its group, or these ids alone. Throws Failure(WrongUsage).
+/// Returns the recordings of a manifest, of its group, or only these ids. Throws Failure(WrongUsage).
 std::vector<slipfit::ManifestEntry> manifest_entries(const std::string& manifest,
                                                      const std::optional<std::string>& group,
                                                      const std::vector<std::string>& only);

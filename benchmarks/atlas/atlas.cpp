@@ -1,4 +1,4 @@
-// Speed against accuracy of methods, and where each of them fails: writes CSV and SVG. docs/accuracy.md shows them.
+// Speed against accuracy of methods, and where each of them fails: writes CSV and SVG. docs/validation.md shows them.
 
 #include <fmt/format.h>
 

@@ -8,38 +8,31 @@
 
 namespace atlas {
 
-/// How a method does at one point of a plane.
+/// How a method answers at one point of a plane.
 enum class Mark {
-  Fine,
-  Silent,    ///< says that it has no answer
-  Doubtful,  ///< answers, but marks the answer as weak
-  Wrong,     ///< a number that is off, without a warning
-  Multiple,  ///< a multiple, a part, or the mains' frequency instead
-  Missed,    ///< says "no stick-slip" where there is
-  Invented   ///< gives a cycle where there is none
+  Right,
+  Refused,  ///< the method states that it has no answer
+  Weak,     ///< the method answers, and marks the answer as weak
+  Wrong     ///< the answer is wrong, and the method does not warn
 };
 
-struct PlaneAxis {
-  std::string label;
-  std::vector<double> values;  ///< logarithmic
-};
-
-/// One panel a method, drawn over the same plane.
+/// A plane of two factors over which methods are compared; draw_failures.py holds its title and labels.
 struct Plane {
-  PlaneAxis x, y;
-  double height_px = 230.0;
-  std::vector<chart::Line> lines;  ///< known limits
+  std::string name;
+  std::vector<double> x, y;
 };
 
 using Judge = std::function<Mark(double x, double y)>;
 
-chart::Panel draw_plane(const Plane& plane, const std::string& method, const Judge& judge);
+/// The first line of the table of failures.
+std::string failure_columns();
 
-/// What the marks mean, for the lines under a chart's title.
-std::vector<std::string> explain_marks(const std::vector<Mark>& marks);
+/// Rows of the table of failures: one for each point of the plane.
+std::string judge_plane(const Plane& plane, const std::string& method, const Judge& judge);
 
-std::vector<File> map_forward_failures(Effort effort);
-std::vector<File> map_frequency_failures(Effort effort);
-std::vector<File> map_fit_failures(Effort effort);
+/// Rows of the failure maps of forward methods, of frequency methods and of fits.
+std::string map_forward_failures(Effort effort);
+std::string map_frequency_failures(Effort effort);
+std::string map_fit_failures(Effort effort);
 
 }  // namespace atlas

@@ -155,7 +155,7 @@ std::vector<File> study_frequency(Effort effort) {
       {time_panel(effort, trials)}};
   const chart::Chart factors{
       "Frequency: error against what spoils a recording",
-      {"Usual: 40 cycles, 20 samples a slip, noise 0.02 of the friction drop, nothing else.",
+      {"Usual: 40 cycles, 20 samples per slip, noise 0.02 of the friction drop, nothing else.",
        "Robust size (68 %) of the errors; no mark: it finds none in more than half of the trials."},
       all.panels};
   return {{"frequency.csv",

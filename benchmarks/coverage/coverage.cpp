@@ -1,5 +1,5 @@
 // Simulates recordings of known truth, fits them, and counts how often the truth lies in the intervals.
-// docs/accuracy.md quotes what it prints.
+// docs/validation.md quotes what it prints.
 
 #include <fmt/format.h>
 

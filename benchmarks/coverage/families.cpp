@@ -34,7 +34,7 @@ class Dice {
   std::mt19937_64 generator_;
 };
 
-/// The ranges are those of recordings of soft contacts in the laboratory: see docs/accuracy.md.
+/// The ranges are those of recordings of soft contacts in the laboratory: see docs/validation.md.
 struct Draw {
   double stiffness_N_per_m, omega_rad_per_s, zeta, lambda, kinetic_N, difference_N, speed_m_per_s;
   double samples_per_slip, cycles;

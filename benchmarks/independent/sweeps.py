@@ -84,14 +84,15 @@ def ageing(rng, law=0, cut_off=(-4, -2), share=(0.03, 0.08), exponential=False):
     return bend
 
 
-def velocity(rng, law, sign=1):
+def velocity(rng, law, sign=1, share=(0.1, 0.4), decades=(-0.7, 0.5)):
+    """`share` of F_s - F_k depends on the speed; `decades`: its speed over the fastest sliding speed, as powers of ten."""
     def bend(model, drop, kinetic, speeds):
         slip_speed = drop / model.stiffness * model.omega
         model.velocity_law = law
         if law == 1:
             model.stribeck_force, model.stribeck_speed = sign * drop * rng.uniform(0.02, 0.08), slip_speed * 10 ** rng.uniform(-2.5, -1)
         else:
-            model.stribeck_force, model.stribeck_speed = sign * drop * rng.uniform(0.1, 0.4), slip_speed * 10 ** rng.uniform(-0.7, 0.5)
+            model.stribeck_force, model.stribeck_speed = sign * drop * rng.uniform(*share), slip_speed * 10 ** rng.uniform(*decades)
         return drop + max(0.0, model.stribeck_force), kinetic  # F_s - F_k(0+) = drop; the level stays positive
     return bend
 
@@ -106,6 +107,13 @@ def coulomb3(rng):
 
 def exponential(rng):
     return draw(rng, 5, 8, velocity(rng, 0))
+
+
+def exponential_strong(rng):
+    """Kinetic friction that falls by half of F_s - F_k and more within the speeds of a slip; recordings with little noise."""
+    sweep = draw(rng, 5, 8, velocity(rng, 0, share=(0.5, 1.0), decades=(-0.4, 0.2)))
+    sweep.noise, sweep.per_slip = 0.3 * sweep.noise, 2.0 * sweep.per_slip
+    return sweep
 
 
 def age_ln3(rng):
@@ -412,6 +420,8 @@ def parameters_of(sweep, sound):
     """What all recordings share, k and w_n at the mean of ln V; F_s - F_k(0+) where they do, by the manifest's mean load."""
     model = sweep.model_at(np.exp(np.mean([np.log(r.speed) for r in sweep.runs]))) if sweep.model_at else sound.model
     truth = {"stiffness_N_per_m": model.stiffness, "natural_frequency_rad_per_s": model.omega, "damping_ratio": model.damping_ratio}
+    if model.stribeck_speed > 0 and model.velocity_law == 0:
+        truth["alpha_s_per_m"] = -1.0 / model.stribeck_speed
     if model.ageing_time > 0 and model.ageing_law == 0:
         truth |= {"ageing_N": model.ageing, "ageing_time_s": model.ageing_time}
     loads = [r.stated_load / sound.stated_load if r.stated_load else 1.0 for r in sweep.runs]
@@ -422,6 +432,6 @@ def parameters_of(sweep, sound):
     return truth
 
 
-FAMILIES = [coulomb5, coulomb3, exponential, age_ln3, age_ln4, age_ln6, age_cutoff, age_wide, age_terms, age_power, age_saturating, age_exponential, log_falling,
+FAMILIES = [coulomb5, coulomb3, exponential, exponential_strong, age_ln3, age_ln4, age_ln6, age_cutoff, age_wide, age_terms, age_power, age_saturating, age_exponential, log_falling,
             log_rising, hyperbolic, two, two_coulomb, narrow, trended, grown, grown_loosely, loose, averaging, rings, rings_otherwise, drifting, zeros, wrong_loads,
             adhesion, undersampled, near_critical, bad_speed, bad_unit, other_material, one_file_twice, swapped, level_only]

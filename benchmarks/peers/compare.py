@@ -7,7 +7,7 @@ The peers, all by scipy's least_squares, from starts within 0.05 % of the truth 
   blocks            the model that slipfit fits (own onset and force for every cycle), evaluated by numpy in closed form
   blocks, sparse    the same, told which parameter moves which samples
   whole trace       one onset and F_s - F_k for all cycles: faster, and wrong where static friction scatters or the start
-                    is off by more than 1 / (10 cycles) (docs/accuracy.md)
+                    is off by more than 1 / (10 cycles) (docs/validation.md)
   whole trace, own search    the same from a start that the trace gives: FFT, slopes, trials, parts of growing length
   solve_ivp         the whole trace with every slip integrated to its event; differences for the derivatives are taken wide
                     enough (1e-5) for the integrator's error not to drown them

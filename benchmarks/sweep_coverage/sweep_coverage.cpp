@@ -1,5 +1,5 @@
 // Simulates speed sweeps of known truth, fits each jointly, and counts how often the truth lies in the intervals; then
-// what the three lower speeds predict for the two higher ones. docs/accuracy.md quotes what it prints.
+// what the three lower speeds predict for the two higher ones. docs/validation.md quotes what it prints.
 
 #include <fmt/format.h>
 

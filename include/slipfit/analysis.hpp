@@ -14,13 +14,13 @@
 
 namespace slipfit {
 
-/// What kind of sliding the recording shows.
+/// The kind of motion that a recording shows.
 enum class MotionClass { StickSlip, SteadySliding, OscillatorySlip, Undetermined };
 
-/// Where a quoted frequency comes from: the fitted cycles, the spectrum, or the count of slips.
+/// The origin of the reported frequency: the fitted cycles, the spectrum, or the count of slips.
 enum class FrequencyMethod { None, FittedCycles, HarmonicLeastSquares, SlipCounting };
 
-/// Spectral and counted frequency beside each other, and the one to quote.
+/// The spectral and the counted frequency, and the one to report.
 struct FrequencyReport {
   Estimate quoted;  ///< Hz; empty where neither method finds one
   FrequencyMethod method = FrequencyMethod::None;
@@ -29,7 +29,7 @@ struct FrequencyReport {
   std::vector<SuspiciousLine> lines;  ///< repetitions that are not the slips: never quoted
 };
 
-/// How slips follow each other: at a rhythm of their own, irregularly, or at that of the stated drive.
+/// The rhythm of the slips: with a period of their own, irregular, or synchronous with the stated drive.
 enum class Regularity { Regular, Irregular, Clocked };
 
 /// Statistics over the cycles of one recording; forces in the unit of the force column.
@@ -45,9 +45,9 @@ struct CycleStatistics {
   Estimate stick_stiffness;  ///< N/m: slope of the rises over the speed, whatever model fits; of newtons
 };
 
-/// One-line tests of what the fit takes for granted, and what their `value` is: relative change of the period over the
-/// recording; path in m over which the level repeats; correlation of a slip with the one before; force for each factor
-/// e of time in stick; k / w_n^2 over the stated mass; w_n over the sensor's resonance.
+/// Short tests of assumptions of the fit. Their `value` is: relative change of the period over the recording;
+/// displacement in m after which the level repeats; correlation of a slip with the previous one; force for each factor
+/// e of stick time; k / w_n^2 over the stated mass; w_n over the resonance of the sensor.
 enum class TestKind { PeriodDrift, LevelRepeats, ReturnMap, Ageing, StatedMass, SensorResonance };
 
 struct ShortTest {
@@ -57,7 +57,7 @@ struct ShortTest {
   std::string finding;            ///< one sentence
 };
 
-/// Wall-clock seconds of the stages.
+/// Wall-clock time of the stages, in s.
 struct Timing {
   double read_s = 0.0;  ///< filled by the caller that reads the file
   double frequency_s = 0.0;
@@ -65,13 +65,13 @@ struct Timing {
   double total_s = 0.0;  ///< filled by the caller: from opening the file to the result
 };
 
-/// Seconds on the recording's own clock.
+/// A part of a recording, in s of its own clock.
 struct TimeSpan {
   double begin_s = 0.0;
   double end_s = 0.0;
 };
 
-/// What a recording shows before it slides and after it; each empty, with a reason, where it does not.
+/// Events of a recording before and after the sliding; each is empty with a reason if it is not observed.
 struct Transients {
   Estimate loading_stiffness_N_per_m;  ///< slope of the first loading ramp over the speed
   Estimate breakaway_force;            ///< first peak, as the force column counts it
@@ -79,7 +79,7 @@ struct Transients {
   Estimate ring_down_damping_ratio;
 };
 
-/// What a standard takes from a test, and where this one was made otherwise.
+/// The conditions that a standard prescribes, and the deviations of this test from them.
 struct StandardCoefficients {
   std::string standard;    ///< "ASTM D1894"
   std::string prescribes;  ///< one sentence
@@ -87,7 +87,8 @@ struct StandardCoefficients {
   std::vector<std::string> differs;  ///< sentences; what slipfit cannot see is not among them
 };
 
-/// Force over normal force, of the stretch that slides; each empty, with a reason, where it is not known.
+/// Coefficients of friction in the sliding part: force over normal force; each is empty, with a reason, if it is
+/// unknown.
 struct Coefficients {
   Estimate static_first_peak;                        ///< the breakaway peak
   Estimate static_mean_peak;                         ///< mean of the peaks before the slips
@@ -106,7 +107,7 @@ struct AuditPair {
   std::string recording{};   ///< of a joint fit: its name there; empty: the only one
 };
 
-/// What a user asked of a fit.
+/// The options of a fit as the user stated them.
 struct AskedFit {
   std::optional<Tier> tier{};  ///< empty: chosen by the data
   HeldParameters held{};

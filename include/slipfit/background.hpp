@@ -16,7 +16,7 @@ struct LimitPoint {
   double lambda = 0.0;
 };
 
-/// What a report draws behind the measured points.
+/// Curves that a report draws behind the measured points.
 struct Background {
   Spectrum spectrum;
   std::optional<Prediction> prediction;  ///< over speed, ascending; empty: the fit gives no model to predict from
@@ -24,11 +24,12 @@ struct Background {
   Estimate reflection;                   ///< trough below F_k over peak above F_k, exp(-pi zeta / sqrt(1 - zeta^2))
 };
 
-/// Beside the analysis, not in it: only reports need it (about a tenth of a fit's time).
+/// Computes the curves; they are not part of the analysis because only reports need them (about a tenth of a fit's
+/// time).
 Background gather_background(const Recording& recording, const Analysis& analysis);
 
-/// What the fit of the sweep predicts around the speeds of its recordings, ascending. Empty where it gives no model to
-/// predict from, or where the recordings have different normal forces.
+/// Returns the prediction of the sweep's fit around the speeds of its recordings, in ascending order. It is empty if
+/// the fit gives no model to predict from, or if the recordings have different normal forces.
 std::optional<Prediction> predict_around(std::span<const SweepEntry> entries, const SweepAnalysis& sweep);
 
 }  // namespace slipfit

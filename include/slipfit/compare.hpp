@@ -11,7 +11,7 @@
 
 namespace slipfit {
 
-/// A number that a comparison looks at.
+/// A number that a comparison includes.
 struct ComparedQuantity {
   std::string section;  ///< of the document that holds it: "parameters", "derived", ...
   std::string key;
@@ -19,17 +19,17 @@ struct ComparedQuantity {
   std::string unit;  ///< SI
 };
 
-/// All of them: parameters, frequency, spacing and coefficients of friction.
+/// Returns all compared quantities: parameters, frequency, spacing and coefficients of friction.
 std::span<const ComparedQuantity> compared_quantities();
 
-/// A quantity as a fit tells it. Where the value is empty, the note says why.
+/// A quantity as a fit determines it. If the value is empty, the note states the reason.
 struct ComparedValue {
   Estimate estimate;
   std::string status;      ///< of a parameter: "identified", ...; else empty
   bool is_absent = false;  ///< not in the document at all
 };
 
-/// One fit, of a recording or of several together, as a comparison sees it.
+/// The fit of a recording, or of several together, as input of a comparison.
 struct ComparedFit {
   std::string id;
   std::string file;    ///< empty: of several recordings
@@ -40,21 +40,21 @@ struct ComparedFit {
   std::vector<ComparedValue> values;  ///< in the order of compared_quantities()
 };
 
-/// From a document of the schema slipfit.fit/1, as `to_json` and `slipfit fit --json` write it. `name`: what messages
-/// call it. Errors: those of check_fit_document.
+/// Reads a document of the schema slipfit.fit/1, as `to_json` and `slipfit fit --json` write it. Messages call it
+/// `name`. Errors: those of check_fit_document.
 Result<ComparedFit> compared_fit(const std::string& document, const std::string& name = "fit document");
 
-/// What is compared: one fit, or one for each repeat of a test.
+/// One side of a comparison: one fit, or one for each repeat of a test.
 struct ComparisonSide {
   std::string name;
   std::vector<ComparedFit> fits;
 };
 
-/// What a condition was at its least and its most; empty where no fit tells it.
+/// Pointer to a member of ComparedFit that describes a condition; the value is empty if no fit states it.
 using ComparedCondition = std::optional<double> ComparedFit::*;
 std::optional<Interval> range_of(const ComparisonSide& side, ComparedCondition condition);
 
-/// Where the interval of a difference comes from (docs/accuracy.md says how each holds).
+/// The origin of the interval of a difference (docs/validation.md gives the coverage of each).
 enum class ComparisonMethod {
   StandardErrors,  ///< of one fit on each side: how repeats scatter is not known
   Welch,           ///< scatter of the repeats on both sides
@@ -62,10 +62,10 @@ enum class ComparisonMethod {
   ScatterOfB
 };
 
-/// What one side tells of a quantity: its own value, or the mean over its recordings.
+/// The estimate of a quantity on one side: its own value, or the mean over its recordings.
 struct SideEstimate {
   Estimate estimate;
-  std::size_t recordings = 0;  ///< that tell it
+  std::size_t recordings = 0;  ///< with this quantity
   std::string status;          ///< of a parameter: the least sure one among them
 };
 
@@ -78,7 +78,7 @@ struct QuantityComparison {
   std::optional<double> p_value;           ///< that A and B do not differ and chance alone shows as much
   std::optional<double> p_adjusted;        ///< the same for all quantities together (Holm)
 
-  /// At the 5 % level, all quantities together.
+  /// Returns true if the sides differ at the 5 % level, for all quantities together.
   [[nodiscard]] bool differs() const { return p_adjusted && *p_adjusted < 0.05; }
 };
 
@@ -88,7 +88,7 @@ struct Comparison {
   Warnings warnings;
 };
 
-/// Do two sides differ? A recording counts once, however many cycles it has. Each side has at least one fit.
+/// Compares two sides. A recording counts once, however many cycles it has. Each side needs at least one fit.
 Comparison compare(const ComparisonSide& a, const ComparisonSide& b);
 
 }  // namespace slipfit

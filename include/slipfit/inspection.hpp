@@ -8,13 +8,13 @@
 
 namespace slipfit {
 
-/// What a file holds, and the stretch that slides in the part that would be read.
+/// The contents of a file, and the sliding part of what would be read.
 struct Inspection {
   FileInfo info;
   std::optional<TimeSpan> sliding;  ///< empty where nothing would be read
 };
 
-/// Errors: those of `inspect_recording`.
+/// Inspects a file and detects the sliding part. Errors: those of `inspect_recording`.
 Result<Inspection> inspect(const std::filesystem::path& file, const ReadOptions& options = {});
 
 }  // namespace slipfit

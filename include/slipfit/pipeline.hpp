@@ -9,17 +9,17 @@
 
 namespace slipfit {
 
-/// Why there is nothing to analyse: fewer than 16 samples (too_few_samples), or the same force in all of them
-/// (force_constant); empty where there is.
+/// Returns the reason why a recording cannot be analysed: fewer than 16 samples (too_few_samples), or the same force in
+/// all of them (force_constant); empty if it can.
 std::optional<Error> missing_data(const Recording& recording);
 
-/// The recording, or that error. An error is passed on.
+/// Returns the recording if it can be analysed, otherwise the reason of missing_data(). An error is passed on.
 Result<Recording> with_data(Result<Recording> recording);
 
-/// Frequency, cycles and kind of motion; no model fit.
+/// Determines frequency, cycles and kind of motion without a model fit.
 Analysis analyze(const Recording& recording);
 
-/// `analyze`, then the fit and what follows from it at the recording's own speed.
+/// Analyses the recording, fits the model, and derives the quantities at the recording's own speed.
 Analysis analyze_and_fit(const Recording& recording, const FitOptions& options = {});
 
 }  // namespace slipfit

@@ -16,14 +16,14 @@ namespace slipfit {
 /// One recording of a sweep, by its name in the manifest.
 using SweepEntry = NamedRecording;
 
-/// The recordings that a manifest names, in its order; of a row with strokes or segments each of them. A fit of a sweep
-/// compares forces behind the spring. Errors: those of read_recording, not_a_force, view_not_spring.
+/// Reads the recordings of a manifest in its order; a row with strokes or segments gives each of them. A fit of a sweep
+/// compares spring forces. Errors: those of read_recording, not_a_force, view_not_spring.
 Result<std::vector<SweepEntry>> read_sweep(std::span<const ManifestEntry> manifest);
 
-/// Why a recording cannot be fitted together with others. Errors: not_a_force, view_not_spring.
+/// Returns the reason why a recording cannot be fitted together with others. Errors: not_a_force, view_not_spring.
 std::optional<Error> check_joint(const Recording& recording);
 
-/// A quantity over recordings that are all at one speed: strokes, repeated runs.
+/// A quantity over recordings at one speed: strokes, or repeated recordings.
 struct Repeat {
   std::string name;  ///< of the JSON: "force_drop_N"
   std::string words;
@@ -33,7 +33,7 @@ struct Repeat {
   double standard_deviation = 0.0;  ///< between the recordings
 };
 
-/// Recordings of one sliding pair at several speeds (or loads), analysed one by one and then together.
+/// Recordings of one sliding pair at several speeds (or loads), analysed separately and then together.
 struct SweepAnalysis {
   std::vector<Analysis> recordings;              ///< in the order of the entries; `fit` is each recording's own
   std::vector<SweepRole> roles;                  ///< what each was used for
@@ -46,10 +46,10 @@ struct SweepAnalysis {
   std::optional<AskedFit> asked{};               ///< empty: no fit was asked for
 };
 
-/// Each recording on its own, then one set of parameters for all. Needs at least one entry.
+/// Analyses each recording and then fits one set of parameters to all. At least one entry is required.
 SweepAnalysis analyze_sweep(std::span<const SweepEntry> entries, const FitOptions& options = {});
 
-/// Each recording on its own, no fit.
+/// Analyses each recording without a fit.
 SweepAnalysis analyze_each(std::span<const SweepEntry> entries);
 
 }  // namespace slipfit

@@ -59,8 +59,8 @@ constexpr std::array kOfSpeed{Concern{Id::Stiffness, -1.0}, Concern{Id::Mass, -1
                               Concern{Id::DampingCoefficient, -1.0}};
 constexpr std::array kOfMass{Concern{Id::Mass}, Concern{Id::NaturalFrequency, -0.5}};
 
-/// Whether the middle three fifths of the rises are stick: from trough to stick, and from stick to peak, a slip takes
-/// up to atan(1 / lambda) / w_n, a quarter of its time at lambda = 1.
+/// Returns true if the middle three fifths of the rises are stick: from trough to stick, and from stick to peak, a slip
+/// takes up to atan(1 / lambda) / w_n, a quarter of its time at lambda = 1.
 bool has_long_sticks(const CycleStatistics& cycles) {
   if (!cycles.slip_time_s) return true;  // not resolved: a jump
   return cycles.stick_time_s && 0.2 * *cycles.stick_time_s > 0.25 * *cycles.slip_time_s;
@@ -118,7 +118,7 @@ Estimate stated_mass(const Subject& of) {
   return {*conditions.mass_kg, error_kg, std::nullopt, {}};
 }
 
-/// Empty where the spectrum's line is not that of the slips, or a harmonic of it.
+/// Returns the spectral frequency, or nothing if the line is neither that of the slips nor one of their harmonics.
 Estimate frequency_by_spectrum(const Subject& of) {
   const FrequencyReport& report = of.analysis.frequency;
   const SpectralFrequency& spectral = report.spectral;
@@ -197,7 +197,7 @@ void lower(Parameter& parameter, ParameterStatus highest) {
   if (is_higher) parameter.status = highest;
 }
 
-/// Of the pairs of this row that contradict themselves, the one whose values differ most; null without any.
+/// Returns the pair of this row that contradicts itself with the largest difference, or null if no pair does.
 const AuditPair* worst_of(const Row& row, const std::vector<AuditPair>& pairs) {
   const AuditPair* worst = nullptr;
   double greatest = 0.0;
@@ -212,8 +212,8 @@ const AuditPair* worst_of(const Row& row, const std::vector<AuditPair>& pairs) {
   return worst;
 }
 
-/// Whether the value itself is in question: most recordings of a joint fit that agree with the shared value show that
-/// the others are, which lower its status all the same.
+/// Returns true if the value itself is in question; if most recordings of a joint fit agree with the shared value, the
+/// others are in question, but its status is lowered all the same.
 bool is_in_question(const Row& row, const std::vector<AuditPair>& pairs) {
   const auto is_compared = [&](const AuditPair& pair) { return pair.pair == row.pair; };
   const auto contradicts = [&](const AuditPair& pair) { return is_compared(pair) && pair.contradicts; };

@@ -11,13 +11,13 @@ namespace slipfit {
 /// `fit`: whose parameters are compared with what the recording shows.
 std::vector<AuditPair> audit_of(const Recording& recording, const Analysis& analysis, const FitResult& fit);
 
-/// The same for a recording of a joint fit: the shared parameters at its speed, and its own frequencies.
+/// Returns the audit of a recording of a joint fit: the shared parameters at its speed, and its own frequencies.
 std::vector<AuditPair> joint_audit_of(const SweepEntry& entry, const Analysis& analysis, const FitResult& joint);
 
 /// The fit with the parameters of contradicted pairs not identified, in intervals that include both values.
 FitResult with_audit(FitResult fit, const std::vector<AuditPair>& pairs);
 
-/// The same of the quoted frequency.
+/// Returns the reported frequency with its audit.
 FrequencyReport with_audit(FrequencyReport frequency, const std::vector<AuditPair>& pairs);
 
 /// One for each contradicted pair; of a joint fit, for those of shared values.

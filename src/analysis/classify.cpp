@@ -55,15 +55,15 @@ bool is_release(const Recording& recording, const Segmentation& segmentation) {
 std::optional<Classification> by_counts(const Recording& recording, const Segmentation& segmentation,
                                         const SpectralFrequency& spectral) {
   const std::size_t count = segmentation.slips.size();
-  if (count == 0) return Classification{MotionClass::SteadySliding, "the force has no falls larger than its noise"};
+  if (count == 0) return Classification{MotionClass::SteadySliding, "the force has no drops larger than its noise"};
   if (is_faint(segmentation) && no_repetition(spectral)) {
-    return Classification{MotionClass::SteadySliding, "the force moves no more than its noise, without repetition"};
+    return Classification{MotionClass::SteadySliding, "the force varies no more than its noise, without repetition"};
   }
   if (!slips_are_sudden(segmentation) && is_release(recording, segmentation)) {
-    return Classification{MotionClass::SteadySliding, "no falls but those of the release at the end"};
+    return Classification{MotionClass::SteadySliding, "no force drops except those of the release at the end"};
   }
   if (count < 4 && ends_flat(recording, segmentation)) {
-    return Classification{MotionClass::SteadySliding, fmt::format("{} fall(s) at the start, then no more", count)};
+    return Classification{MotionClass::SteadySliding, fmt::format("{} force drop(s) at the start, then none", count)};
   }
   if (count < thresholds::kFewestSlips) {
     return Classification{MotionClass::Undetermined,
@@ -74,7 +74,7 @@ std::optional<Classification> by_counts(const Recording& recording, const Segmen
   if (cycle_samples < thresholds::kFewestCycleSamples) {
     return Classification{
         MotionClass::Undetermined,
-        fmt::format("{:.1f} samples a cycle are too few to see slips; sample at least {:.0f} times faster",
+        fmt::format("{:.1f} samples per cycle are too few to resolve slips; sample at least {:.0f} times faster",
                     cycle_samples, std::ceil(20.0 / cycle_samples))};
   }
   return std::nullopt;
@@ -103,45 +103,43 @@ bool is_chatter(const Recording& recording, const Signals& signals) {
 Classification irregular(const Segmentation& segmentation) {
   const MeanAndSpread interval = describe(slip_intervals_s(segmentation));
   return {MotionClass::Undetermined,
-          fmt::format("irregular slip or chatter: {} falls, {:.3g} a second, of {:.0f} % of the range of the force; "
-                      "their intervals scatter by {:.0f} %",
+          fmt::format("irregular slip or chatter: {} force drops, {:.3g} per second, of {:.0f} % of the range of the "
+                      "force; their intervals scatter by {:.0f} %",
                       segmentation.slips.size(), 1.0 / interval.mean, 100.0 * swing_share(segmentation),
                       100.0 * interval.sd / interval.mean)};
 }
 
-/// What the trace shows by itself where no slip of the model is close to it.
+/// Classifies the trace without a model if the model fits no slip.
 Classification without_model(const Recording& recording, const Signals& signals) {
   const Segmentation& segmentation = signals.segmentation;
   const double ratio = rise_over_fall(segmentation);
   const bool sudden = slips_are_sudden(segmentation);
   if (sudden && proven_rise_over_fall(segmentation) > thresholds::kSudden) {
-    return {MotionClass::StickSlip,
-            fmt::format("{} sudden falls after rises that take {:.1f} times as long; no slip of the model is close to "
-                        "them, so that its parameters stay unknown",
-                        segmentation.slips.size(), ratio)};
+    return {MotionClass::StickSlip, fmt::format("{} sudden force drops after rises that last {:.1f} times as long; the "
+                                                "model does not fit them, so its parameters are unknown",
+                                                segmentation.slips.size(), ratio)};
   }
   if (sudden) {
     return {MotionClass::Undetermined,
-            fmt::format("{} falls after rises that take {:.1f} times as long, and no slip of the model is close to "
-                        "them: too few falls to distinguish slips from ripple; record longer",
+            fmt::format("{} force drops after rises that last {:.1f} times as long; the model does not fit them, and "
+                        "they are too few to distinguish slips from ripple; record longer",
                         segmentation.slips.size(), ratio)};
   }
   if (spectrum_agrees(segmentation, signals.spectral)) {
-    return {MotionClass::OscillatorySlip,
-            fmt::format("swings without straight sticks: the force rises in {:.1f} times the time that it falls in",
-                        ratio)};
+    return {
+        MotionClass::OscillatorySlip,
+        fmt::format("oscillation without straight sticks: the force rises {:.1f} times as long as it falls", ratio)};
   }
   if (!keeps_rhythm(segmentation) && is_chatter(recording, signals)) return irregular(segmentation);
   if (!keeps_rhythm(segmentation)) {
     return {MotionClass::SteadySliding,
-            "the force wanders: its falls are no more sudden than its rises and keep no rhythm"};
+            "the force wanders: it falls no more suddenly than it rises, and without a period"};
   }
   return {MotionClass::Undetermined,
-          fmt::format("the swings are no stick-slip cycles: the force rises in {:.1f} times the time that it falls in",
-                      ratio)};
+          fmt::format("the oscillation is not stick-slip: the force rises {:.1f} times as long as it falls", ratio)};
 }
 
-/// Swings without sticks that can be told; empty where slips come to rest.
+/// Describes oscillation without sticks; empty if slips come to rest.
 std::optional<Classification> as_round_swings(const Segmentation& segmentation, const FitDiagnostics& e) {
   const bool sine_like = is_sine_like(segmentation);
   if (!sine_like && rise_over_fall(segmentation) < thresholds::kSquare) {
@@ -163,8 +161,8 @@ std::optional<Classification> as_round_swings(const Segmentation& segmentation, 
   return std::nullopt;
 }
 
-/// How much better sticks and slips follow the samples than three sines do: the difference of twice the logarithm of
-/// the likelihood, each at its best noise, of the cycles that the fit could use.
+/// Returns how much better sticks and slips fit the samples than three sines do: twice the difference of the
+/// log-likelihoods, each at its best noise, over the cycles that the fit could use.
 std::optional<double> evidence_of_sticks(const Recording& recording, const Signals& signals, const FitResult& fit,
                                          std::size_t used) {
   const double counted_Hz = 1.0 / signal::median(slip_intervals_s(signals.segmentation));
@@ -184,14 +182,12 @@ std::optional<double> evidence_of_sticks(const Recording& recording, const Signa
 /// Three sines follow the swings as well as sticks and slips do: no sticks have to be there.
 Classification as_wave(double evidence) {
   if (evidence < -thresholds::kEvidence) {
-    return {MotionClass::OscillatorySlip,
-            "three sines follow the swings better than sticks and slips do: an oscillation"};
+    return {MotionClass::OscillatorySlip, "three sines fit better than sticks and slips: an oscillation"};
   }
-  return {MotionClass::Undetermined,
-          "three sines follow the swings as well as sticks and slips do: it may be an oscillation"};
+  return {MotionClass::Undetermined, "three sines fit as well as sticks and slips: the motion may be an oscillation"};
 }
 
-/// Whether the slips determine one of their parameters, be it weakly.
+/// Returns true if the slips determine one of their parameters, at least weakly.
 bool determines_slips(const FitResult& fit) {
   return std::ranges::any_of(fit.parameters, [](const Parameter& parameter) {
     const bool is_of_slips = parameter.id == ParameterId::Stiffness ||
@@ -215,7 +211,7 @@ Classification classify_by_fit(const Recording& recording, const Estimates& esti
   if (used < 5 && !sudden && (e.onset_force_spread > 0.2 || e.relative_residual > 0.04)) {
     if (ends_flat(recording, segmentation)) {
       return {MotionClass::SteadySliding,
-              fmt::format("{} falls at the start, then no more", segmentation.slips.size())};
+              fmt::format("{} force drops at the start, then none", segmentation.slips.size())};
     }
     if (!keeps_rhythm(segmentation)) return without_model(recording, estimates.signals);
     return {MotionClass::Undetermined, fmt::format("only {} usable cycles, and they do not agree", used)};
@@ -224,15 +220,14 @@ Classification classify_by_fit(const Recording& recording, const Estimates& esti
   const bool loose = e.relative_residual < thresholds::kLooseFit && e.onset_force_spread < thresholds::kModestSpread;
   const bool died = !sudden && keeps_rhythm(segmentation) && e.span_share < thresholds::kSpanShare;
   if (died && (close || loose || e.restick_share < thresholds::kRestickShare)) {
-    return {MotionClass::OscillatorySlip, "the swings die out: a ring-down to steady sliding", true};
+    return {MotionClass::OscillatorySlip, "the oscillation decays: a ring-down to steady sliding", true};
   }
   const bool rests = e.restick_share >= thresholds::kRestickShare;
   if ((!close && !loose) || (sudden && !rests)) return without_model(recording, estimates.signals);
   // Whether a fit that determines nothing is loose or worse than that may hang on how its search ended.
   if (sudden && !close && !determines_slips(*estimates.fit)) return without_model(recording, estimates.signals);
   if (is_sine_like(segmentation) && keeps_mains_phase(segmentation)) {
-    return {MotionClass::Undetermined,
-            "nearly sinusoidal swings at the frequency of the mains that keep its phase: they may be its hum"};
+    return {MotionClass::Undetermined, "nearly sinusoidal oscillation in phase with the mains: it may be mains hum"};
   }
   if (auto round = as_round_swings(segmentation, e)) return *round;
   const std::optional<double> evidence =
@@ -251,17 +246,17 @@ Classification classify(const Recording& recording, const Estimates& estimates) 
   Classification classification = classify_by_fit(recording, estimates);
   if (!classification.model_fits && follows_drive_path(recording.conditions(), estimates.signals.segmentation)) {
     return {MotionClass::SteadySliding,
-            fmt::format("the force repeats every {:.4g} mm, the stated path of the drive: ripple, not slips",
+            fmt::format("the force repeats every {:.4g} mm, the stated drive path: ripple, not slips",
                         1e3 * *recording.conditions().drive_path_m)};
   }
   const bool keeps_time = keeps_time_like_a_clock(recording, estimates.signals.spectral);
   if (classification.motion == MotionClass::OscillatorySlip && !classification.dies_out && keeps_time) {
     if (is_faint(estimates.signals.segmentation)) {
       return {MotionClass::SteadySliding,
-              "swings not much larger than the noise that keep time like a clock: pick-up on steady sliding"};
+              "oscillation not much larger than the noise with a constant period: pick-up on steady sliding"};
     }
     return {MotionClass::Undetermined,
-            "swings without sticks that keep time like a clock: pick-up, ripple of the drive or an oscillation"};
+            "oscillation without sticks and with a constant period: pick-up, ripple of the drive or a vibration"};
   }
   return classification;
 }
@@ -276,14 +271,14 @@ Classification classify_by_shape(const Recording& recording, const Signals& sign
     return {MotionClass::StickSlip, "the force falls much faster than it rises (no model fitted)"};
   }
   if (is_faint(segmentation)) {
-    return {MotionClass::Undetermined, "the falls are not much larger than the noise: only a fit can decide"};
+    return {MotionClass::Undetermined, "the force drops are not much larger than the noise: only a fit can decide"};
   }
   const bool are_few = segmentation.slips.size() < thresholds::kFewFalls;
   if (!is_sine_like(segmentation) && ratio > thresholds::kSquare && !are_few) {
     return {MotionClass::StickSlip, "the force falls much faster than it rises (no model fitted)"};
   }
   if (ratio > thresholds::kSquare && are_few) {
-    return {MotionClass::Undetermined, "too few falls to distinguish slips from ripple without a fit"};
+    return {MotionClass::Undetermined, "too few force drops to distinguish slips from ripple without a fit"};
   }
   return {MotionClass::Undetermined, "the force falls about as slowly as it rises: only a fit can decide"};
 }

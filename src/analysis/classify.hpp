@@ -16,7 +16,7 @@ struct Classification {
   bool model_fits = false;  ///< the fitted cycles are the model's: its parameters mean something
 };
 
-/// From slips, spectrum and fitted cycles. No fit: too few cycles could be fitted.
+/// Classifies the motion from slips, spectrum and fitted cycles. There is no fit if too few cycles could be fitted.
 Classification classify(const Recording& recording, const Estimates& estimates);
 
 /// A guess from the detected slips alone, where no fit was asked for.

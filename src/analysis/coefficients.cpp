@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t kMostBlocks = 20;
 
-/// Mean of a force that hangs together over times: the scatter is that of means over blocks of whole cycles or, without
+/// The mean of a correlated force: the scatter is that of means over blocks of whole cycles or, without
 /// cycles, of a twentieth of the samples.
 Estimate mean_during_sliding(std::span<const double> force, std::size_t cycles) {
   const std::size_t blocks = cycles >= 2 ? std::min(kMostBlocks, cycles) : kMostBlocks;
@@ -30,7 +30,8 @@ Estimate mean_during_sliding(std::span<const double> force, std::size_t cycles) 
   return symmetric(spread.mean, spread.sd / std::sqrt(spread.count), spread.count - 1.0);
 }
 
-/// By the fit where it knows F_s: the sensor shows F_s - c V there, and samples miss the very peak.
+/// Returns the fitted static friction if the fit determines F_s: the sensor measures F_s - c V at the peak, and samples
+/// miss the exact peak.
 std::optional<Estimate> fitted_static_friction(const Analysis& analysis) {
   const Parameter* const fitted = analysis.fit ? analysis.fit->find(ParameterId::StaticFriction) : nullptr;
   if (fitted == nullptr || !fitted->estimate.value || !fitted->estimate.ci95) return std::nullopt;
@@ -48,7 +49,8 @@ Estimate in_both_intervals(Estimate estimate, const Estimate& other) {
   return estimate;
 }
 
-/// Beside its scatter the highest sample of a slip errs by the noise, and by what the force rises in a sample.
+/// Returns the mean of the peaks; its error includes scatter, the noise of the highest sample, and the rise of the
+/// force within a sample interval.
 Estimate mean_of_peaks(const Recording& recording, const Analysis& analysis) {
   const CycleStatistics& cycles = analysis.cycles;
   if (analysis.motion == MotionClass::SteadySliding) return unknown("steady sliding has no peaks");
@@ -68,11 +70,11 @@ Estimate over_load(Estimate force, double load_N, bool zero_is_known) {
   divide(force.value);
   divide(force.standard_error);
   if (force.ci95) force.ci95 = Interval{force.ci95->low / load_N, force.ci95->high / load_N};
-  if (force.value && !zero_is_known) force.note = "from the sensor's own zero, which --zero would state";
+  if (force.value && !zero_is_known) force.note = "relative to the sensor's own zero (--zero states it)";
   return force;
 }
 
-/// What the standards ask for that a recording shows. ASTM D1894-14, 8 to 10; ISO 8295:1995, 6 to 9.
+/// The requirements of the standards that a recording can show: ASTM D1894-14, 8 to 10; ISO 8295:1995, 6 to 9.
 struct Standard {
   const char* name;
   const char* prescribes;
@@ -87,10 +89,10 @@ constexpr std::array kStandards = std::to_array<Standard>(
       0.150 / 60.0, 0.030 / 60.0, 1.961, 0.049, 0.130},
      {"ISO 8295",
       "1.96 N on 40 cm^2 at 100 mm/min, after 15 s at rest; static: the first maximum; kinetic: the mean over the "
-      "first 60 mm behind it",
+      "following 60 mm",
       0.100 / 60.0, 0.010 / 60.0, 1.96, 0.02, 0.060}});
 
-/// What slides: force in its own unit, and how often it slips.
+/// The sliding part of a recording: force in its own unit, and frequency of the slips.
 struct Sliding {
   const Recording& recording;
   std::size_t cycles = 0;
@@ -116,9 +118,9 @@ std::vector<std::string> differences(const Standard& standard, const Sliding& sl
     differs.push_back(fmt::format("pressed with {:.3g} N, not {:.3g}", *load_N, standard.load_N));
   }
   if (travel_m < standard.travel_m) {
-    differs.push_back(fmt::format("slid {:.3g} mm of {:.3g}", 1e3 * travel_m, 1e3 * standard.travel_m));
+    differs.push_back(fmt::format("sliding distance {:.3g} mm of {:.3g}", 1e3 * travel_m, 1e3 * standard.travel_m));
   }
-  if (sliding.slips) differs.emplace_back("stick-slip: the mean of a force that swings is no force of sliding");
+  if (sliding.slips) differs.emplace_back("during stick-slip the mean force is not the kinetic friction");
   return differs;
 }
 

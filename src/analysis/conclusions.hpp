@@ -12,12 +12,12 @@
 
 namespace slipfit {
 
-// What an analysis says beside its fit, in the order in which src/pipeline.cpp asks.
+// The results of an analysis other than its fit, in the order in which src/pipeline.cpp asks.
 
 /// Both frequencies and the one to quote, which is of slips (or of an oscillation that is the motion): the cycles of a
 /// fit that is the model's (`fitted_frequency`), or harmonic least squares where they are regular and it is the
 /// sharper; without such a fit the count, or harmonic least squares where they agree on regular slips. Steady sliding
-/// and what cannot be told quote none, nor does what dies out where spectrum and count differ. `fit`: empty unless its
+/// and undetermined motion have none, nor does a decaying motion if spectrum and count differ. `fit`: empty unless its
 /// cycles are the model's.
 FrequencyReport quote_frequency(const Recording& recording, const Signals& signals,
                                 const Classification& classification, const FitResult* fit);
@@ -28,21 +28,22 @@ FrequencyReport quote_frequency(const Recording& recording, const Signals& signa
 /// 5 cycles, and where regular slips are not resolved.
 std::optional<Estimate> fitted_frequency(const FitResult& fit, const Recording& recording);
 
-/// Of the detected slips; times of stick and slip from the cycles of a fit, where there is one.
+/// Returns statistics of the detected slips; times of stick and slip are those of the fitted cycles if there is a fit.
 CycleStatistics summarise_cycles(const Recording& recording, const Segmentation& segmentation, const FitResult* fit);
 
-/// Of slips with at least two intervals. `slips_Hz`: the quoted frequency.
+/// Returns the rhythm of slips with at least two intervals. `slips_Hz` is the reported frequency.
 Regularity regularity_of(const CycleStatistics& cycles, const Estimate& slips_Hz, const Conditions& conditions);
 
 /// Spacing V/f and impulse rate from the quoted frequency; uncertainty of the speed included where it is given.
 Derived with_measured_spacing(Derived derived, const Recording& recording, const FrequencyReport& frequency,
                               const CycleStatistics& cycles);
 
-/// What the recording shows outside of the stretch that slides: the loading ramp and its first peak before it, a free
-/// ring-down after it (after the release, or after the last slip of a motion that dies out).
+/// Returns events outside the sliding part: the loading ramp and its first peak before it, and a free ring-down after
+/// it (after the release, or after the last slip of a decaying motion).
 Transients find_transients(const Detected& detected, MotionClass motion);
 
-/// Empty without a normal force (for a force column). `analysis`: with its cycles, transients and kind of motion.
+/// Returns the coefficients of friction; empty without a normal force (for a force column). `analysis` contains cycles,
+/// transients and kind of motion.
 std::optional<Coefficients> find_coefficients(const Detected& detected, const Analysis& analysis);
 
 /// Numbers that no tester has, mostly from a unit that was mistaken: with the factor of 1000 that would mend them.

@@ -16,7 +16,8 @@ namespace slipfit {
 
 namespace {
 
-/// From the middle three fifths of the time between slips: median slope over the speed, and what it scatters by.
+/// Returns the slope of the sticks over the speed: median and scatter in the middle three fifths of the time between
+/// slips.
 Estimate stick_stiffness(const Recording& recording, const Segmentation& segmentation) {
   constexpr std::size_t kFewestSamples = 5;
   const double speed_m_per_s = recording.conditions().speed_m_per_s;
@@ -38,7 +39,7 @@ Estimate stick_stiffness(const Recording& recording, const Segmentation& segment
   return symmetric(middle, kMedianToSe * signal::median(std::move(off)) / std::sqrt(count), count - 1.0);
 }
 
-/// How long the fitted cycles slip and stick.
+/// Returns the statistics with the slip and stick times of the fitted cycles.
 CycleStatistics with_stick_times(CycleStatistics result, const FitResult& fit) {
   std::vector<double> slips;
   for (const Cycle& cycle : fit.cycles) {

@@ -24,7 +24,8 @@ Part part_of(const Recording& recording, SampleRange stretch, std::optional<std:
   return {std::move(part), std::move(quality), std::move(slips)};
 }
 
-/// Of the stretch that slides, where it is nearly all: what the whole shows best it shows best, too.
+/// Returns the scale at which the sliding part is analysed; it is that of the whole recording if the part is nearly all
+/// of it.
 std::optional<std::size_t> scale_of_part(const Segmentation& slips, std::size_t samples) {
   constexpr double kNearlyAll = 0.9;
   const auto sliding = static_cast<double>(slips.sliding_end - slips.sliding_begin);
@@ -40,7 +41,7 @@ void take(Detected& detected, Part part, std::size_t begin) {
 }
 
 /// Takes the stretch that slides: that of the slips where they are sudden, else the plateau of a steady run. A
-/// ring-down is told by what comes after it, waves and noise by the whole.
+/// ring-down is recognised by what follows it, waves and noise by the whole.
 void narrow(Detected& detected) {
   const Recording& recording = detected.recording();
   const Segmentation& slips = detected.signals.segmentation;

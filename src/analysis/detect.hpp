@@ -12,7 +12,7 @@
 
 namespace slipfit {
 
-/// What a recording shows before any model: quality, slips and the repetition frequency.
+/// Properties of a recording that need no model: quality, slips and repetition frequency.
 struct Signals {
   Quality quality;
   Segmentation segmentation;
@@ -33,7 +33,8 @@ struct Detected {
   [[nodiscard]] const Recording& recording() const { return part ? *part : *whole; }
   /// The recording's sample that is number i of the part.
   [[nodiscard]] std::size_t sample_of(std::size_t i) const { return kept.empty() ? begin + i : kept[begin + i]; }
-  /// Samples of the recording in the mean behind one of the part: 1 where none are repeated.
+  /// Returns the number of samples of the recording that are averaged in one sample of the part; 1 if none are
+  /// repeated.
   [[nodiscard]] double repeats() const {
     return kept.empty() ? 1.0 : static_cast<double>(whole->size()) / static_cast<double>(kept.size());
   }

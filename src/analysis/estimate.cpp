@@ -45,9 +45,9 @@ double misfit_of(double relative_residual, double onset_force_spread) {
   return relative_residual + 0.3 * onset_force_spread;
 }
 
-/// How badly the cycles fit: residual and spread over the onset force. A missing fit is the worst; so is one that finds
-/// cycles in less than half of the slips offered to it, which are then no slips: a rhythm near the mains that was taken
-/// out as hum leaves such remains behind.
+/// Returns the misfit of the cycles: residual and spread over the onset force. A missing fit is the worst, and so is
+/// one with cycles in less than half of the detected slips, which are then not slips: subtracting a rhythm near the
+/// mains as hum leaves such remains.
 double misfit_of(const std::optional<FitResult>& fit) {
   if (!fit) return std::numeric_limits<double>::infinity();
   const std::vector<Cycle>& cycles = fit->cycles;
@@ -89,7 +89,8 @@ Excerpt excerpt_of(const Recording& recording, const Quality& quality, const Seg
   return excerpt;
 }
 
-/// Where lines of the mains may hide slips or pass for them: the slips beneath, and whether they are fitted better.
+/// Decides whether lines of the mains conceal slips or resemble them: detects the slips after subtraction and compares
+/// the fits.
 class BeneathHum {
  public:
   BeneathHum(const Recording& recording, const FitOptions& options) : recording_(recording), options_(options) {}
@@ -131,7 +132,7 @@ class BeneathHum {
     is_searched_ = true;
   }
 
-  /// With the lines of the mains in the level.
+  /// Returns the misfit of a few cycles with the lines of the mains in the level.
   [[nodiscard]] double misfit_of_few(const Quality& quality, const Segmentation& segmentation) const {
     Excerpt few = excerpt_of(recording_, quality, segmentation, kFewSlips);
     few.segmentation.mains_Hz = slips_->mains_Hz;

@@ -18,11 +18,12 @@ struct Estimates {
 /// The spectrum alone.
 Estimates estimate_frequency(const Detected& detected);
 
-/// Spectrum and fit, beside each other in two threads where there are two. Where a line of the mains may have hidden
+/// Computes spectrum and fit in parallel if two threads are available. If a line of the mains may have concealed
 /// slips or passed for them, slips and fit once more without the mains; the clearly better fit is kept.
 Estimates estimate(const Detected& detected, const FitOptions& options);
 
-/// A line of the mains stands out and may move turning points, or the slips counted may be its swings.
+/// Returns true if a line of the mains is significant and may move turning points, or the slips counted may be its
+/// swings.
 bool may_be_hum(const Signals& signals);
 
 }  // namespace slipfit

@@ -25,7 +25,7 @@ struct Series {
   [[nodiscard]] Eigen::Index size() const { return place.size(); }
 };
 
-/// A sine fitted to a series beside its mean and its trend.
+/// A sine fitted to a series together with its mean and trend.
 struct Sine {
   double waves = 0.0;
   double amplitude = 0.0;
@@ -64,8 +64,8 @@ double best_waves(const Series& series) {
   return best;
 }
 
-/// Chance that white scatter leaves as little beside the best of all sines. Half as many of them as there are values
-/// are independent.
+/// Chance that white scatter leaves as small a residual with the best of all sines. Half as many of them as there are
+/// values are independent.
 double chance_of(const Sine& sine, const Series& series) {
   const auto count = static_cast<double>(series.size());
   return std::min(1.0, 0.5 * count * std::pow(sine.rest, 0.5 * (count - 4.0)));
@@ -84,7 +84,7 @@ Series levels_of(std::span<const Cycle> cycles) {
   return levels;
 }
 
-/// From each to the next: of a random walk white scatter.
+/// Returns the differences of consecutive levels, which are white for a random walk.
 Series differences_of(const Series& levels) {
   const Eigen::Index steps = levels.size() - 1;
   return {0.5 * (levels.place.head(steps) + levels.place.tail(steps)),
@@ -107,13 +107,14 @@ std::optional<ShortTest> test_level_repeats(std::span<const Cycle> cycles, doubl
   const Sine best = sine_in(levels, best_waves(levels));
   const double swing = 2.0 * best.amplitude / mean_drop(cycles);
   if (!(swing > thresholds::kSmallestWave)) {
-    return ShortTest{TestKind::LevelRepeats,
-                     {},
-                     {},
-                     {},
-                     fmt::format("no wave of the force level is above {:g} % of the mean drop, which peaks between two "
-                                 "samples make by themselves",
-                                 100.0 * thresholds::kSmallestWave)};
+    return ShortTest{
+        TestKind::LevelRepeats,
+        {},
+        {},
+        {},
+        fmt::format(
+            "no wave of the force level exceeds {:g} % of the mean drop, which sampling of the peaks alone causes",
+            100.0 * thresholds::kSmallestWave)};
   }
   const Series differences = differences_of(levels);
   const double p = std::max(chance_of(best, levels), chance_of(sine_in(differences, best.waves), differences));
@@ -122,15 +123,14 @@ std::optional<ShortTest> test_level_repeats(std::span<const Cycle> cycles, doubl
   const double scatter = std::sqrt(0.5 * best.rest / (1.0 - best.rest));
   const double se_m = path_m * std::sqrt(6.0 / count) / std::numbers::pi * scatter / best.waves;
   const bool is_proven = p < thresholds::kProven;
-  return ShortTest{
-      TestKind::LevelRepeats, path_m, se_m, p,
-      fmt::format("the force level swings by {:.2g} % of the mean drop once every {:.3g} slips or {:.3g} mm of "
-                  "sliding: {} at the {:g} % level (p {:.2g}){}",
-                  100.0 * swing, (count - 1.0) / best.waves, 1e3 * path_m, is_proven ? "proven" : "not proven",
-                  100.0 * thresholds::kProven, p,
-                  is_proven ? "; texture of the counterface repeats over one path at every speed, a wave of the drive "
-                              "or of the sensor after one time"
-                            : "")};
+  return ShortTest{TestKind::LevelRepeats, path_m, se_m, p,
+                   fmt::format("the force level varies by {:.2g} % of the mean drop once every {:.3g} slips or {:.3g} "
+                               "mm of sliding: {} at the {:g} % level (p {:.2g}){}",
+                               100.0 * swing, (count - 1.0) / best.waves, 1e3 * path_m,
+                               is_proven ? "proven" : "not proven", 100.0 * thresholds::kProven, p,
+                               is_proven ? "; texture of the counterface repeats after the same displacement at every "
+                                           "speed, a wave of the drive or the sensor after the same time"
+                                         : "")};
 }
 
 }  // namespace slipfit

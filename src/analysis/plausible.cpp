@@ -12,9 +12,9 @@
 namespace slipfit {
 namespace {
 
-/// What a unit that is off by 1000 carries away. The ranges hold, with a decade to spare, what measured recordings and
-/// makers' sheets show: springs and load cells of 0.1 kN/m to 100 MN/m, moving bodies of 0.1 g to 1 t, slips of 10 nm
-/// (a thousandth of that counts) to 20 mm.
+/// The quantities that a wrong unit (by a factor of 1000) makes implausible. The ranges include, with a decade to
+/// spare, measured recordings and data sheets: springs and load cells of 0.1 kN/m to 100 MN/m, moving bodies of 0.1 g
+/// to 1 t, slips of 10 nm (a thousandth of that is allowed) to 20 mm.
 struct Seen {
   std::optional<double> stiffness_N_per_m;
   std::optional<double> mass_kg;
@@ -64,7 +64,7 @@ std::string remedy_for(const Seen& seen, bool is_time_unit_assumed) {
   for (const Mistake& mistake : mistakes) {
     if (is_plausible({scaled(seen.stiffness_N_per_m, mistake.stiffness), scaled(seen.mass_kg, mistake.mass),
                       scaled(seen.spacing_m, mistake.spacing)})) {
-      return (is_time_unit_assumed && mistake.is_of_clock ? "the file gives no unit of time: " : "") +
+      return (is_time_unit_assumed && mistake.is_of_clock ? "the file contains no unit of time: " : "") +
              std::string(mistake.question);
     }
   }
@@ -87,7 +87,7 @@ std::optional<std::string> implausible_units(const Recording& recording, const A
   };
   add(seen.stiffness_N_per_m, kStiffness_N_per_m, "a stiffness in N/m of");
   add(seen.mass_kg, kMass_kg, "a mass in kg of");
-  add(seen.spacing_m, kSpacing_m, "a way per slip in m of");
+  add(seen.spacing_m, kSpacing_m, "a distance per slip in m of");
   return fmt::format("{} is outside the range of tribometers: {}", what,
                      remedy_for(seen, recording.provenance().is_time_unit_assumed));
 }

@@ -66,9 +66,9 @@ Line line_through(const std::vector<Onset>& onsets) {
   return {line.slope(), std::sqrt(fewer * rest / (line.count - 2.0) / line.square)};
 }
 
-/// Whether onset forces differ no more than their errors, and neighbouring periods are correlated as those of even
-/// onsets, each timed with an error of its own, are
-/// (-1/2, with a standard error of 0.7 / sqrt(count)); where the static friction scatters they come near +1/2.
+/// Returns true if the onset forces differ no more than their errors, and neighbouring periods are correlated like
+/// those of even onsets with independent timing errors (-1/2, with a standard error of 0.7 / sqrt(count)); scatter of
+/// the static friction gives values near +1/2.
 bool is_regular(const FitDiagnostics& diagnostics, const std::vector<Onset>& onsets, double period_s) {
   if (diagnostics.onset_force_spread > thresholds::kOrdinarySpread * diagnostics.onset_force_error) return false;
   double product = 0.0, square = 0.0, previous = 0.0, count = 0.0;
@@ -124,7 +124,7 @@ std::optional<Estimate> fitted_frequency(const FitResult& fit, const Recording& 
 
 namespace {
 
-/// Of the two frequencies; empty where one of them is.
+/// Returns the relative difference of the two frequencies, or nothing if one of them is missing.
 std::optional<double> relative_difference(const SpectralFrequency& spectral, const Estimate& counted) {
   if (!spectral.value_Hz || !counted.value) return std::nullopt;
   return std::abs(*spectral.value_Hz / *counted.value - 1.0);
@@ -132,7 +132,7 @@ std::optional<double> relative_difference(const SpectralFrequency& spectral, con
 
 /// Harmonic least squares uses every sample, onsets what the slips show of them: on regular cycles it is two to five
 /// times as exact (docs/accuracy.md), unless hum or drift, which the fit allows for and the spectrum does not, are in
-/// its error. Where the two contradict each other the fit is quoted: it tells slips from other repetitions.
+/// its error. Where the two contradict each other the fit is quoted: it distinguishes slips from other repetitions.
 bool is_sharper(const SpectralFrequency& spectral, const Estimate& fitted) {
   if (!spectral.value_Hz || !spectral.regular_standard_error_Hz) return false;
   const double difference_Hz = std::abs(*spectral.value_Hz - *fitted.value);
@@ -153,7 +153,7 @@ double swing_at(const Recording& recording, double frequency_Hz) {
   return 4.0 * std::abs(sum) / static_cast<double>(force.size());
 }
 
-/// Whether a spectral line is the slips' own: their frequency or a harmonic of it.
+/// Returns true if a spectral line is the frequency of the slips or one of its harmonics.
 bool is_of_slips(double line_Hz, const Estimate& slips) {
   if (!slips.value) return false;
   const double order = std::max(1.0, std::round(line_Hz / *slips.value));
@@ -161,7 +161,8 @@ bool is_of_slips(double line_Hz, const Estimate& slips) {
   return std::abs(line_Hz / (order * *slips.value) - 1.0) < std::max(thresholds::kAlike, scatter);
 }
 
-/// Whether a line is a multiple of the slips' frequency as closely as that is known; far up every line would be.
+/// Returns true if a line is a multiple of the frequency of the slips within its accuracy; at high multiples every line
+/// would be.
 bool is_multiple_of(double line_Hz, const Estimate& slips, double resolution_Hz) {
   constexpr double kDistinct = 0.1;  // of the distance between multiples
   if (!slips.value || !slips.standard_error) return false;
@@ -170,14 +171,14 @@ bool is_multiple_of(double line_Hz, const Estimate& slips, double resolution_Hz)
   return std::abs(line_Hz - order * *slips.value) < std::min(known_Hz, kDistinct * *slips.value);
 }
 
-/// What repeats beside the slips.
+/// Returns the lines of the spectrum that do not belong to the slips.
 std::vector<SuspiciousLine> lines_beside(const Recording& recording, const SpectralFrequency& spectral,
                                          const Estimate& quoted) {
   std::vector<SuspiciousLine> lines = spectral.suspicious_lines;
   if (spectral.value_Hz && !is_of_slips(*spectral.value_Hz, quoted)) {
     const char* const reason = quoted.value
-                                   ? "not the slips: pick-up, ripple of the drive, ringing or a wave of the level"
-                                   : "repeats without slips: pick-up, ripple of the drive or an oscillation";
+                                   ? "not the slips: pick-up, ripple of the drive, ringing or a wave of the force level"
+                                   : "periodic without slips: pick-up, ripple of the drive or an oscillation";
     lines.push_back({*spectral.value_Hz, reason, swing_at(recording, *spectral.value_Hz)});
   }
   return lines;
@@ -210,10 +211,10 @@ bool noise_hides_slips(const Signals& signals) {
   return median_drop(signals.segmentation) < thresholds::kHiding * signals.quality.noise_rms;
 }
 
-/// With an interval that holds what the spectrum shows.
+/// Returns the count with an interval that includes the frequency of the spectrum.
 Estimate reaching(Estimate counted, const SpectralFrequency& spectral) {
   const double spectral_Hz = *spectral.value_Hz;
-  counted.note = fmt::format("the spectrum shows {:.4g} Hz, to which the interval reaches", spectral_Hz);
+  counted.note = fmt::format("the spectrum shows {:.4g} Hz, which the interval includes", spectral_Hz);
   if (!counted.ci95) return counted;
   // The line's own error, and that of the scatter of the slips, which the count shows.
   const double half_Hz =
@@ -245,18 +246,19 @@ FrequencyReport of_trace(const Recording& recording, const Signals& signals, con
   const bool hidden = classification.motion == MotionClass::OscillatorySlip && !agree &&
                       !(keeps_rhythm(signals.segmentation) && !is_faint(signals.segmentation) && !may_be_hum(signals));
   if (classification.dies_out && !agree) {
-    report.quoted.note = "the swings die out, and spectrum and count do not agree on them";
+    report.quoted.note = "the oscillation decays, and spectrum and count disagree";
   } else if (spectral.value_Hz && spectral.standard_error_Hz && ((agree && regular) || hidden)) {
     report.method = FrequencyMethod::HarmonicLeastSquares;
     report.quoted = symmetric(*spectral.value_Hz, *spectral.standard_error_Hz, std::max(1.0, interval.count - 1.0));
-    if (!agree && counted.value) report.quoted.note = fmt::format("{:.4g} falls a second were counted", *counted.value);
+    if (!agree && counted.value)
+      report.quoted.note = fmt::format("{:.4g} force drops per second were counted", *counted.value);
   } else if (counted.value && !contradict) {
     report.method = FrequencyMethod::SlipCounting;
     report.quoted = near && !agree ? reaching(counted, spectral) : counted;
     if (difference && !near) report.quoted.note = fmt::format("the spectrum shows {:.4g} Hz", *spectral.value_Hz);
   } else {
     report.quoted.note =
-        "hum or noise as large as the slips may have made or hidden some, and the spectrum does not agree";
+        "hum or noise as large as the slips may have added or concealed some, and the spectrum does not agree";
   }
   return report;
 }

@@ -10,7 +10,7 @@
 namespace slipfit {
 namespace {
 
-/// A force level is not negative where the sensor's zero is known: else it stands on an unknown one.
+/// A force level is not negative where the sensor's zero is known: otherwise it is relative to an unknown one.
 Range range_of(const Parameter& parameter, const Conditions& conditions) {
   const ParameterInfo& row = info(parameter.id);
   const bool has_zero = conditions.zero_force_N && parameter.estimate.value.value_or(-1.0) >= 0.0;

@@ -144,7 +144,7 @@ Swings swings_of(const Recording& recording, const Start& start, std::size_t wid
   return swings;
 }
 
-/// Without what comes after the swings have stopped to shrink at their rhythm: noise, or another motion.
+/// Returns the oscillation without its end, where it no longer decays at its rate: noise, or another motion.
 Swings ring_of(Swings swings) {
   std::size_t count = std::min<std::size_t>(swings.half_periods_s.size(), 1);
   const auto in_rhythm = [&](std::size_t i) {
@@ -158,7 +158,7 @@ Swings ring_of(Swings swings) {
   return swings;
 }
 
-/// By least squares of the samples of so many swings, from what their turning points tell.
+/// Fits the samples of this number of periods by least squares, starting from the turning points.
 std::optional<RingDown> by_least_squares(const Recording& recording, const Swings& swings, std::size_t count,
                                          const RingDown& start) {
   constexpr std::size_t kEnough = 20000;  // samples

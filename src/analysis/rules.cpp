@@ -105,7 +105,7 @@ bool sticks(const Facts& facts) {
 constexpr std::array kScaledBySpeed{ParameterId::Stiffness, ParameterId::StiffnessExponent, ParameterId::Mass,
                                     ParameterId::DampingCoefficient};
 
-/// Those with the largest effect on the results first; facts last.
+/// The rules with the largest effect on the results come first, facts last.
 constexpr auto kRules = std::to_array<Rule>({
     {"implausible_units", RuleKind::Warning,
      [](const Facts& f) { return one(implausible_units(f.detected.recording(), f.analysis)); }, kScaledBySpeed},

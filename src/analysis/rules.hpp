@@ -11,7 +11,7 @@
 
 namespace slipfit {
 
-/// What the rules of one recording look at.
+/// The input of the rules for one recording.
 struct Facts {
   const Detected& detected;
   const Segmentation& slips;
@@ -29,13 +29,13 @@ struct Rule {
   /// One message for each time that the condition holds. Null: the warning is made where its cause is found, by the
   /// reader, the fit, the sweep or the comparison.
   std::vector<std::string> (*messages)(const Facts&) = nullptr;
-  std::span<const ParameterId> limited = {};  ///< parameters that are at most conditional beside this warning
+  std::span<const ParameterId> limited = {};  ///< parameters that are at most conditional with this warning
 };
 
-/// All warnings of recordings and sweeps, those with the largest effect on the results first.
+/// Returns the rules of all warnings of recordings and sweeps, in order of their effect on the results.
 std::span<const Rule> rules();
 
-/// False for a code that no rule has.
+/// Returns true if a warning is a fact; false for a code without a rule.
 bool is_fact(const Warning& warning);
 
 /// The warnings of the reader, of the fit and of the rules, those with the largest effect first.

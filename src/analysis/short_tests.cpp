@@ -93,7 +93,7 @@ ShortTest test_drift(const std::vector<Pair>& pairs, double duration_s) {
   const double change = slope * duration_s / mean_s;
   const double p = chance_of(r, count - 2.0);
   return {TestKind::PeriodDrift, change, std::abs(change) * std::sqrt((1.0 / (r * r) - 1.0) / (count - 2.0)), p,
-          fmt::format("the period changes by {:+.2g} % from begin to end: {}", 100.0 * change, seen(p))};
+          fmt::format("the period changes by {:+.2g} % from start to end: {}", 100.0 * change, seen(p))};
 }
 
 ShortTest test_return_map(const std::vector<Pair>& pairs) {
@@ -103,9 +103,9 @@ ShortTest test_return_map(const std::vector<Pair>& pairs) {
   const double r = product(force, before) / std::sqrt(product(force, force) * product(before, before));
   const double freedom = static_cast<double>(pairs.size()) - 3.0;
   const double p = chance_of(r, freedom);
-  return {
-      TestKind::ReturnMap, r, std::sqrt((1.0 - r * r) / freedom), p,
-      fmt::format("the static friction of a slip correlates by {:+.2f} with that of the slip before: {}", r, seen(p))};
+  return {TestKind::ReturnMap, r, std::sqrt((1.0 - r * r) / freedom), p,
+          fmt::format("the static friction of a slip correlates by {:+.2f} with that of the previous slip: {}", r,
+                      seen(p))};
 }
 
 /// F_s = a + b ln(time in stick). A large F_s makes its own stick long, so that the plain slope means nothing; the slip
@@ -123,12 +123,12 @@ ShortTest test_ageing(const std::vector<Pair>& pairs, const std::string& unit) {
   const double r = product(force, before) / std::sqrt(product(force, force) * product(before, before));
   const double p = chance_of(r, freedom);
   return {TestKind::Ageing, slope, se, p,
-          fmt::format("static friction changes by {:+.2g} ± {:.1g} {} where the stick lasts 2.72 times as long: {}; it "
-                      "rests on the same correlation as the test before",
+          fmt::format("static friction changes by {:+.2g} ± {:.1g} {} if the stick lasts 2.72 times as long: {}; this "
+                      "uses the same correlation as the previous test",
                       slope, se, unit, seen(p))};
 }
 
-/// Empty where it is not known with an interval.
+/// Returns the estimate, or nothing if it has no interval.
 std::optional<Estimate> known_estimate(Estimate estimate) {
   if (!estimate.value || !estimate.ci95) return std::nullopt;
   return estimate;
@@ -137,14 +137,14 @@ std::optional<Estimate> known_estimate(Estimate estimate) {
 ShortTest test_mass(const FitResult& fit, double stated_kg) {
   const std::optional<Estimate> mass = known_estimate(fit.estimate_of(ParameterId::Mass));
   if (!mass || !(*mass->standard_error > 0.0)) {
-    return {TestKind::StatedMass, {}, {}, {}, "k / w_n^2 is not known: the stated mass cannot be compared with it"};
+    return {TestKind::StatedMass, {}, {}, {}, "k/w_n^2 is unknown: the stated mass cannot be compared with it"};
   }
   const double ratio = *mass->value / stated_kg;
   const double relative_se = *mass->standard_error / *mass->value;
   const boost::math::normal_distribution<double> normal;
   const double p = 2.0 * boost::math::cdf(boost::math::complement(normal, std::abs(std::log(ratio)) / relative_se));
   return {TestKind::StatedMass, ratio, ratio * relative_se, p,
-          fmt::format("k / w_n^2 is {:.3g} ± {:.1g} times the stated mass, a difference {}", ratio, ratio * relative_se,
+          fmt::format("k/w_n^2 is {:.3g} ± {:.1g} times the stated mass, a difference {}", ratio, ratio * relative_se,
                       seen(p))};
 }
 
@@ -156,10 +156,10 @@ ShortTest test_resonance(const FitResult& fit, double resonance_Hz) {
           ratio,
           *omega->standard_error / *omega->value * ratio,
           {},
-          fmt::format("the natural frequency of the slips is {:.2g} of the load cell's resonance: {}", ratio,
-                      ratio < thresholds::kNearResonance
-                          ? fmt::format("it shows them {:.1g} % too large", 100.0 * (1.0 / (1.0 - ratio * ratio) - 1.0))
-                          : "k, w_n and zeta may be those of the load cell")};
+          fmt::format("the natural frequency of the slips is {:.2g} times the resonance of the load cell: {}", ratio,
+                      ratio < thresholds::kNearResonance ? fmt::format("the sensor shows the slips {:.1g} % too large",
+                                                                       100.0 * (1.0 / (1.0 - ratio * ratio) - 1.0))
+                                                         : "k, w_n and zeta may be those of the load cell")};
 }
 
 /// Cycles alike to the last digit leave a test nothing to divide by: it is then not known.

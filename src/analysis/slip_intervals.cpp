@@ -29,7 +29,7 @@ double relative_error(const std::vector<double>& values, const MeanAndSpread& of
   return std::sqrt(std::max(variance, 0.5 * independent) / of.count) / of.mean;
 }
 
-/// Where a series is split best into two levels, and how far apart they are in standard errors.
+/// The best division of a series into two levels, and their distance in standard errors.
 struct Split {
   std::size_t at = 0;
   double before = 0.0;
@@ -37,7 +37,7 @@ struct Split {
   double apart = 0.0;
 };
 
-/// Of the values from begin to end, by their running sums: linear in their number however many splits are tried.
+/// Running sums of a series, so that any number of divisions costs linear time.
 class RunningSums {
  public:
   explicit RunningSums(const std::vector<double>& values) : origin_(describe(values).mean) {
@@ -133,8 +133,8 @@ std::optional<std::string> broken_rhythm(const Recording& recording, const Segme
   const std::size_t broken = intervals_of(recording, segmentation).broken;
   if (broken == 0) return std::nullopt;
   return fmt::format(
-      "{} interval(s) between slips do not fit the rhythm of the others: the stage paused, or "
-      "samples are missing while the clock ran on; they do not count",
+      "{} interval(s) between slips differ from the period of the others: the stage paused, or samples are missing; "
+      "they were left out",
       broken);
 }
 
@@ -152,8 +152,8 @@ std::optional<std::string> change_on_the_way(const Segmentation& segmentation) {
   const bool pace = is_change(interval) && interval.apart >= drop.apart;
   const Split& split = pace ? interval : drop;
   return fmt::format(
-      "{} changes from {:.4g}{} before {:.6g} s to {:.4g}{} after it: one number for both is a mean; use "
-      "--window T0:T1 for each part",
+      "{} changes from {:.4g}{} before {:.6g} s to {:.4g}{} after it: one number is a mean of both; analyse each part "
+      "with --window T0:T1",
       pace ? "the interval between slips" : "the drop", split.before, pace ? " s" : "", slips[split.at + 2].middle_s,
       split.after, pace ? " s" : "");
 }

@@ -13,8 +13,8 @@
 
 namespace slipfit {
 
-/// From slip to slip: without the first slip, without intervals that hold a gap of the clock, and without the few that
-/// fall far outside of a regular rest (`broken`: the stage stood still, or samples are missing while the clock ran on).
+/// Intervals between slips, without the first slip, without gaps of the clock, and without the few that differ greatly
+/// from otherwise regular ones (`broken`: the stage stopped, or samples are missing while the clock continued).
 struct Intervals {
   std::vector<double> seconds;
   std::size_t broken = 0;

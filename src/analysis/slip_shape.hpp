@@ -10,22 +10,23 @@ namespace slipfit {
 
 // What the shapes of the detected slips show, whatever model fits them.
 
-/// Median; 0 where there are no slips.
+/// Returns the median drop; 0 without slips.
 double median_drop(const Segmentation& segmentation);
 
-/// Seconds between the middles of neighbouring slips.
+/// Returns the time between the middles of neighbouring slips, in s.
 std::vector<double> slip_intervals_s(const Segmentation& segmentation);
 
-/// Median interval between slips in periods of the mains, 50 or 60 Hz, whichever is nearer; 0 below 2 slips.
+/// Returns the median interval between slips in periods of the mains, 50 or 60 Hz, whichever is nearer; 0 below 2
+/// slips.
 double mains_share(const Segmentation& segmentation);
 
-/// How much longer the rises take than the falls before them: median; 0 where there are no rises.
+/// Returns the median ratio of the duration of a rise to that of the fall before it; 0 without rises.
 double rise_over_fall(const Segmentation& segmentation);
 
-/// The same, less what the scatter of so few ratios allows: what the falls of a motion prove.
+/// Returns the ratio reduced by what the scatter of few ratios allows: the ratio that the motion proves.
 double proven_rise_over_fall(const Segmentation& segmentation);
 
-/// Root mean square of the drops over the range from the lowest trough to the highest peak.
+/// Returns the root mean square of the drops over the range from the lowest trough to the highest peak.
 double swing_share(const Segmentation& segmentation);
 
 /// Exponent by which the second differences of the force grow with their step, from an eighth of a fall on: 2 where a

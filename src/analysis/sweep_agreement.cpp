@@ -16,17 +16,18 @@
 namespace slipfit {
 namespace {
 
-/// How far a recording stands from the others.
+/// The distance of a recording from the others.
 struct Apart {
   std::size_t recording = 0;
   double distance = 0.0;  ///< relative, or ln of a ratio; levels in units of F_s - F_k
   double errors = 0.0;    ///< the same in errors, >= 0
 };
 
-/// How many of the recordings have to agree: a level has no unit that all share, and zeros of their own lie anywhere.
+/// The number of recordings that have to agree; all others for levels, whose unit is not shared and whose zeros may
+/// differ.
 enum class Agreeing { Half, AllOthers };
 
-/// Whether a line over ln V holds nearly all of what they differ by.
+/// Returns true if a line over ln V explains nearly all differences.
 bool go_with_speed(std::span<const SweepEntry> entries, std::span<const Apart> recordings) {
   std::vector<double> places;
   std::vector<double> distances;
@@ -39,7 +40,7 @@ bool go_with_speed(std::span<const SweepEntry> entries, std::span<const Apart> r
   return std::get<2>(line) > thresholds::kGoesWithSpeed;
 }
 
-/// The one that stands furthest apart, where so many agree.
+/// Returns the recording that differs most, if enough others agree.
 std::optional<Apart> furthest(std::span<const SweepEntry> entries, std::vector<Apart> recordings, Agreeing agreeing) {
   if (recordings.size() < thresholds::kNamingRecordings) return std::nullopt;
   std::ranges::sort(recordings, [](const Apart& a, const Apart& b) { return a.errors > b.errors; });
@@ -94,7 +95,7 @@ double middle_of(const std::vector<FittedValue>& values) {
   return signal::median(numbers);
 }
 
-/// Beside the middle of all, in a unit.
+/// Returns the distances from the middle of all recordings, in a unit.
 std::vector<Apart> from_middle(const std::vector<FittedValue>& values, double middle, double unit) {
   std::vector<Apart> apart;
   for (const FittedValue& own : values) {
@@ -151,16 +152,15 @@ Warnings check_agreement(std::span<const SweepEntry> entries, const std::vector<
                     entries[recording].id, shown)};
   };
   if (const auto apart = by_stiffness(entries, analyses, fit)) {
-    return {warning(apart->recording, fmt::format("its stiffness lies {:.2g} % {} theirs (k goes as 1 / V)",
+    return {warning(apart->recording, fmt::format("its stiffness is {:.2g} % {} theirs (k is proportional to 1/V)",
                                                   100.0 * std::abs(apart->distance), side_of(*apart)))};
   }
   if (const auto apart = by_spacing(entries, analyses, fit)) {
-    return {
-        warning(apart->recording, fmt::format("a fit without it predicts a spacing {:.3g} times the one that it shows",
-                                              std::exp(apart->distance)))};
+    return {warning(apart->recording, fmt::format("a fit without it predicts a spacing {:.3g} times the measured one",
+                                                  std::exp(apart->distance)))};
   }
   if (const auto apart = by_level(entries, analyses, fit)) {
-    return {warning(apart->recording, fmt::format("its force level lies {:.2g} times F_s - F_k {} theirs",
+    return {warning(apart->recording, fmt::format("its force level is {:.2g} times F_s - F_k {} theirs",
                                                   std::abs(apart->distance), side_of(*apart)))};
   }
   return {};
@@ -174,9 +174,10 @@ Warnings check_duplicates(std::span<const SweepEntry> entries) {
       const auto other = entries[j].recording.force();
       if (!std::ranges::equal(one, other)) continue;
       warnings.push_back(
-          {"recording_repeated", fmt::format("recordings '{}' and '{}' have the same samples: one of them counts "
-                                             "twice, or is listed with the conditions of another",
-                                             entries[j].id, entries[i].id)});
+          {"recording_repeated",
+           fmt::format(
+               "recordings '{}' and '{}' have the same samples: one is counted twice or listed with wrong conditions",
+               entries[j].id, entries[i].id)});
       break;
     }
   }

@@ -25,7 +25,7 @@ struct Point {
 };
 
 std::optional<Point> point_of(const Recording& recording, const Analysis& analysis) {
-  // What is not quoted, because it may not be slips, is just what the comparison of speeds can tell.
+  // Frequencies that are not reported because they may not be slips are decided by the comparison of speeds.
   const FrequencyReport& report = analysis.frequency;
   const Estimate spectral{report.spectral.value_Hz, report.spectral.standard_error_Hz, {}, {}};
   const Estimate& frequency = report.quoted.value ? report.quoted : spectral;
@@ -50,7 +50,7 @@ bool slides(const Recording& recording, const Analysis& analysis, double average
          *frequency_Hz * average_s < thresholds::kAverageOfSwing;
 }
 
-/// The fit tells at least one parameter.
+/// Returns true if the fit determines at least one parameter.
 bool has_values(const Analysis& analysis) {
   return analysis.fit && std::ranges::any_of(analysis.fit->parameters, [](const Parameter& parameter) {
            return parameter.estimate.value.has_value();
@@ -64,9 +64,9 @@ Warnings check_frequency_at_one_speed(const std::vector<Point>& points) {
   const double factor = std::exp(high->log_frequency - low->log_frequency);
   if (!(factor > thresholds::kOneSpeedFrequencies)) return {};
   return {{"frequency_differs_at_one_speed",
-           fmt::format("the recordings are stated at about one speed, but their frequencies differ by a factor of "
-                       "{:.2g}: check the speeds",
-                       factor)}};
+           fmt::format(
+               "the stated speeds are nearly equal, but the frequencies differ by a factor of {:.2g}: check the speeds",
+               factor)}};
 }
 
 SweepRole role_of(const Recording& recording, const Analysis& analysis) {
@@ -76,7 +76,7 @@ SweepRole role_of(const Recording& recording, const Analysis& analysis) {
   return analysis.motion == MotionClass::SteadySliding ? SweepRole::Steady : SweepRole::LeftOut;
 }
 
-/// Stick-slip of which neither the shape of a slip nor the scatter of many tells that shape.
+/// Returns true for stick-slip whose slips are too poorly sampled for their shape, even together.
 bool is_unresolved(const Recording& recording, const Analysis& analysis) {
   return role_of(recording, analysis) == SweepRole::Cycles && analysis.fit->tier == Tier::Sawtooth &&
          analysis.fit->diagnostics.samples_per_slip > 0.0 &&
@@ -110,7 +110,7 @@ Warnings check_resolution(std::span<const SweepEntry> entries, const std::vector
   }
   if (names.empty()) return {};
   return {{"slips_not_resolved",
-           fmt::format("left out of the joint fit, since a slip has less than {:.1f} samples: {}; sample faster",
+           fmt::format("left out of the joint fit because a slip has fewer than {:.1f} samples: {}; sample faster",
                        thresholds::kResolvedSamples, fmt::join(names, ", "))}};
 }
 
@@ -118,8 +118,8 @@ std::string describe_roles(const std::vector<SweepRole>& roles) {
   const auto count = [&](SweepRole role) { return std::ranges::count(roles, role); };
   return fmt::format("{} with stick-slip cycles, {} sliding steadily, {} left out{}", count(SweepRole::Cycles),
                      count(SweepRole::Steady), count(SweepRole::LeftOut),
-                     count(SweepRole::Cycles) < 2 ? "; a joint fit needs two with cycles, best at speeds a factor of 3 "
-                                                    "apart (slipfit fit FILE --speed V fits one by itself)"
+                     count(SweepRole::Cycles) < 2 ? "; a joint fit needs two with cycles, preferably at speeds a "
+                                                    "factor of 3 apart (slipfit fit FILE --speed V fits a single one)"
                                                   : "");
 }
 
@@ -177,7 +177,7 @@ std::vector<Analysis> without_passing_patterns(std::vector<Analysis> analyses, c
     if (!moves || has_values(analysis)) continue;
     analysis.motion = MotionClass::Undetermined;
     analysis.motion_reason =
-        "what repeats does not follow the speed as stick-slip does, by comparison with the other recordings";
+        "compared with the other recordings, the repetition does not depend on speed as stick-slip does";
     analysis.frequency.quoted = unknown("the recordings at other speeds show that these are not slips");
     analysis.frequency.method = FrequencyMethod::None;
     const Estimate no_spacing = unknown("no frequency, no spacing");
@@ -203,8 +203,8 @@ Warnings check_frequency_follows_speed(std::span<const SweepEntry> entries, cons
   const double expected = std::min(slow->stick_share, fast->stick_share);
   if (expected > 0.3 && power + 2.0 * power_se < 0.5 * expected) {
     return {{"frequency_does_not_follow_speed",
-             fmt::format("the frequency goes as the speed to the power {:.2f}; sticks this long would make it at least "
-                         "{:.2f}: a control loop or a resonance, not stick-slip",
+             fmt::format("the frequency varies as the speed to the power {:.2f}; with sticks of this length the "
+                         "exponent would be at least {:.2f}: a control loop or a resonance, not stick-slip",
                          power, expected)}};
   }
   if (slow->log_fall && fast->log_fall) {
@@ -212,11 +212,10 @@ Warnings check_frequency_follows_speed(std::span<const SweepEntry> entries, cons
     // A slip is half an oscillation at any speed. A shape that is fixed in space passes in a time as 1 / V.
     if (fall_power < -0.5 && power > 0.5) {
       const double spacing_mm = 1e3 * std::exp(fast->log_speed - fast->log_frequency);
-      return {
-          {"frequency_does_not_follow_speed",
-           fmt::format("frequency does not follow speed as in stick-slip: rise and fall both shorten with the speed "
-                       "and V / f stays {:.3g} mm: a pattern or a rotation passing by",
-                       spacing_mm)}};
+      return {{"frequency_does_not_follow_speed",
+               fmt::format("frequency does not depend on speed as in stick-slip: rise and fall both become shorter "
+                           "with speed and V/f remains {:.3g} mm: a pattern or a rotation of the counterface",
+                           spacing_mm)}};
     }
   }
   return {};

@@ -7,12 +7,11 @@
 
 namespace slipfit {
 
-/// What each recording is used for in a fit of a sweep. Slips that no model comes close to are none of a fit of a
-/// sweep's either. A slip within a sample or two fits the model of the others at many places of its onset: such
-/// recordings are left out where the others suffice.
+/// Returns the use of each recording in a fit of a sweep. Slips that the model does not fit are not used. A slip within
+/// one or two samples fits the model of the others at many onsets: such recordings are left out if the others suffice.
 std::vector<SweepRole> roles_of(std::span<const SweepEntry> entries, const std::vector<Analysis>& analyses);
 
-/// Names the recordings that are left out because the sampling does not resolve their slips.
+/// Warns of recordings that are left out because the sampling does not resolve their slips.
 Warnings check_resolution(std::span<const SweepEntry> entries, const std::vector<Analysis>& analyses,
                           const std::vector<SweepRole>& roles);
 
@@ -24,18 +23,18 @@ std::string describe_roles(const std::vector<SweepRole>& roles);
 ObservedEnd observed_end(std::span<const SweepEntry> entries, const std::vector<Analysis>& analyses,
                          const FitResult& result);
 
-/// What only several speeds can tell: that the repetition is geometry or a control loop, not stick-slip.
+/// Warns of repetitions that several speeds identify as geometry or a control loop instead of stick-slip.
 Warnings check_frequency_follows_speed(std::span<const SweepEntry> entries, const std::vector<Analysis>& analyses);
 
 /// The analyses, those without a fitted slip undetermined where the frequency does not follow the speed as in
 /// stick-slip. `warnings`: of check_frequency_follows_speed.
 std::vector<Analysis> without_passing_patterns(std::vector<Analysis> analyses, const Warnings& warnings);
 
-/// Whether levels that repeat (`level_repeats` of the recordings) do so over one path at all speeds, which is texture
-/// of the counterface, or after one time.
+/// Warns of force levels that repeat (`level_repeats` of the recordings) after one displacement at all speeds, which is
+/// texture of the counterface, or after one time.
 Warnings check_level_repeats(std::span<const SweepEntry> entries, const std::vector<Analysis>& analyses);
 
-/// Names the recording that stands furthest from the others where at least half of them agree: by the stiffness of its
+/// Names the recording that differs most from the others if at least half of them agree: by the stiffness of its
 /// own fit, else by the spacing that a fit without it predicts, else by its force level. Needs four with cycles.
 Warnings check_agreement(std::span<const SweepEntry> entries, const std::vector<Analysis>& analyses,
                          const SweepFit& fit);
@@ -43,7 +42,7 @@ Warnings check_agreement(std::span<const SweepEntry> entries, const std::vector<
 /// Recordings with the same samples, whatever their files are called.
 Warnings check_duplicates(std::span<const SweepEntry> entries);
 
-/// Mean and scatter over recordings that are all at one speed; empty where they are not.
+/// Returns mean and scatter over recordings at one speed; empty if the speeds differ.
 std::vector<Repeat> compare_repeats(std::span<const SweepEntry> entries, std::span<const Analysis> analyses);
 
 }  // namespace slipfit

@@ -13,13 +13,14 @@ std::optional<Error> check_joint(const Recording& recording) {
   if (std::optional<Error> error = missing_data(recording)) return error;
   if (conditions.quantity != ForceQuantity::Force_N) {
     return Error{"not_a_force", file +
-                                    ": holds a friction coefficient, and a joint fit needs forces: give the normal "
+                                    ": contains a friction coefficient, but a joint fit needs forces: give the normal "
                                     "force (normal_force_N in a manifest)"};
   }
   if (conditions.force_view == ForceView::Spring) return std::nullopt;
-  return Error{"view_not_spring", file +
-                                      ": force_view is not spring, and a joint fit knows the spring force only: fit "
-                                      "this recording on its own"};
+  return Error{
+      "view_not_spring",
+      file +
+          ": force_view is not spring, and a joint fit supports only the spring force: fit this recording separately"};
 }
 
 Result<std::vector<SweepEntry>> read_sweep(std::span<const ManifestEntry> manifest) {

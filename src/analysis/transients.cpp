@@ -24,7 +24,7 @@ struct Trace {
   double noise = 0.0;
 };
 
-/// So many samples that the turning points of the run-up stand out of the noise, but short against it.
+/// So many samples that the turning points of the run-up exceed the noise, but short against it.
 Trace smoothed(const Detected& detected) {
   const std::span<const double> force = detected.whole->force();
   const Segmentation& slips = detected.signals.segmentation;
@@ -34,7 +34,7 @@ Trace smoothed(const Detected& detected) {
   return {std::move(means), width / 2, noise};
 }
 
-/// From the lowest force before it to the first peak.
+/// The part of a recording from the lowest force to the first peak.
 struct RunUp {
   std::size_t begin = 0;
   std::size_t peak = 0;
@@ -62,8 +62,8 @@ std::optional<RunUp> first_large_rise(const Trace& trace, double drop) {
   return std::nullopt;
 }
 
-/// Of a recording that begins at rest: before the first slip; where it is no stick-slip the force stays up behind the
-/// first peak.
+/// Returns the loading before the first slip of a recording that starts at rest; without stick-slip the force has to
+/// stay high after the first peak.
 std::optional<RunUp> run_up(const Detected& detected, const Trace& trace, MotionClass motion) {
   const std::vector<DetectedSlip>& slips = detected.signals.segmentation.slips;
   const std::optional<RunUp> ramp = first_large_rise(trace, median_drop(detected.signals.segmentation));
@@ -128,7 +128,7 @@ Transients find_transients(const Detected& detected, MotionClass motion) {
   const std::optional<RunUp> ramp = run_up(detected, trace, motion);
   constexpr double kManyFreedoms = 100.0;
   Transients transients;
-  transients.loading_stiffness_N_per_m = transients.breakaway_force = unknown("the recording holds no loading ramp");
+  transients.loading_stiffness_N_per_m = transients.breakaway_force = unknown("the recording contains no loading ramp");
   transients.ring_down_frequency_Hz = transients.ring_down_damping_ratio = unknown("no free ring-down was found");
   if (ramp) {
     transients.loading_stiffness_N_per_m = loading_stiffness(*detected.whole, trace, *ramp);

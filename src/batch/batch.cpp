@@ -35,12 +35,11 @@ FoundResults prepare_folder(const BatchOptions& options, const BatchHooks& hooks
                             const RunRecord& now, const std::optional<RunRecord>& before) {
   if (before && !options.resume && has_results(options.folder)) {
     throw file_error("results_present", options.folder,
-                     "holds results of this batch; go on with --resume, or choose another folder with --out");
+                     "contains results of this batch; continue with --resume, or choose another folder with --out");
   }
   FoundResults found = before ? find_results(options.folder, *before, list) : FoundResults(list.is_mine.size());
   if (found.damaged > 0 && hooks.tell) {
-    hooks.tell(
-        fmt::format("{} results are not in results.jsonl as they were written, and are fitted again", found.damaged));
+    hooks.tell(fmt::format("{} results in results.jsonl were changed or damaged and are fitted again", found.damaged));
   }
   if (!before) write_record(options.folder, now);
   write_journal(options.folder, found);
@@ -52,7 +51,7 @@ FoundResults prepare_folder(const BatchOptions& options, const BatchHooks& hooks
 
 void report_other_processor(const BatchHooks& hooks, const RunRecord& before, const RunRecord& now) {
   if (!hooks.tell || before.processor == now.processor) return;
-  hooks.tell(fmt::format("results were computed on another processor, too ({}; this one: {}): last digits may differ",
+  hooks.tell(fmt::format("some results were computed on another processor ({}; this one: {}): last digits may differ",
                          printable(before.processor), now.processor));
 }
 
@@ -63,12 +62,12 @@ void tell_ignored_columns(const BatchOptions& options, const BatchHooks& hooks) 
                          fmt::join(reader.value().ignored_columns(), ", ")));
 }
 
-/// Rows are told apart by their number, so that the manifest must be the same from the first reading to the last.
+/// Rows are identified by their number, so that the manifest must be the same from the first reading to the last.
 void check_unchanged(const BatchOptions& options, const WorkList& list) {
   const auto digest = manifest_digest(options.manifest);
   if (digest && digest.value() == list.manifest_digest) return;
   throw file_error("manifest_changed", options.manifest,
-                   "was edited while the batch ran; put it back as it was and go on with --resume");
+                   "was edited while the batch ran; restore it and continue with --resume");
 }
 
 /// Whatever happened before, what is done is on the disk and run.json says how far it came.

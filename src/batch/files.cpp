@@ -38,7 +38,7 @@ std::string random_letters() {
   return letters;
 }
 
-/// A file beside `file` that did not exist, opened for writing. It has the mode of `file`, or, where there is none,
+/// A file next to `file` that did not exist, opened for writing. It has the mode of `file`, or, where there is none,
 /// that which the umask leaves. Returns -1 with errno where it cannot be made.
 int open_temporary(const fs::path& file, std::string& name) {
   struct stat status {};
@@ -61,7 +61,7 @@ ThrownError file_error(std::string code, const fs::path& file, std::string_view 
 ThrownError cannot_write(const fs::path& file, int error_number) {
   return file_error(
       "cannot_write", file,
-      fmt::format("cannot be written ({}); mend that, then go on with --resume", std::strerror(error_number)));
+      fmt::format("cannot be written ({}); correct that, then continue with --resume", std::strerror(error_number)));
 }
 
 CheckedFile::CheckedFile(fs::path file, int descriptor) : name(std::move(file)), handle(descriptor) {
@@ -127,7 +127,7 @@ Result<std::string> LineFile::line_at(std::uint64_t place) const {
   for (;;) {
     const ssize_t count =
         ::pread(file_.handle.get(), chunk.data(), chunk.size(), static_cast<off_t>(place + line.size()));
-    if (count <= 0) return file_error("not_readable", file_.name, "a line that was written is gone").error();
+    if (count <= 0) return file_error("not_readable", file_.name, "a line that was written is missing").error();
     const std::string_view text(chunk.data(), static_cast<std::size_t>(count));
     const std::size_t end = text.find('\n');
     line += text.substr(0, end);

@@ -18,7 +18,7 @@
 
 namespace slipfit::batch {
 
-/// What a batch writes into its folder, beside the lock.
+/// Files that a batch writes into its folder, in addition to the lock.
 constexpr const char* kResults = "results.jsonl";
 constexpr const char* kSummary = "summary.csv";
 constexpr const char* kFailures = "failures.csv";
@@ -73,8 +73,8 @@ class LineFile {
   std::uint64_t size_;
 };
 
-/// A new file beside `file` that takes its place when all is written: readers see the old content or the new. Unless
-/// `finish` succeeds, it is removed.
+/// A new file next to `file` that replaces it when everything is written: readers see the old content or the new.
+/// Unless `finish` succeeds, it is removed.
 class Replacement {
  public:
   explicit Replacement(const std::filesystem::path& file);
@@ -88,7 +88,7 @@ class Replacement {
   /// Writes what is left, waits for the disk and renames.
   void finish();
   void throw_error() const { file_.throw_error(); }
-  /// Of all that was appended.
+  /// Returns the digest of everything that was appended.
   [[nodiscard]] Digest digest() const { return digester_.digest(); }
 
  private:

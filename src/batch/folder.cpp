@@ -51,7 +51,7 @@ ThrownError in_use(const fs::path& file, int descriptor) {
   return file_error(
       "folder_in_use", file,
       fmt::format("in use by process {} ('{}', file of user {}); wait for it, or choose another folder; if that "
-                  "process is no slipfit, remove the file",
+                  "process is not slipfit, remove the file",
                   knows_process ? std::to_string(lock.l_pid) : "?", printable(text_of(descriptor)), status.st_uid));
 }
 
@@ -59,7 +59,7 @@ ThrownError not_opened(const fs::path& file, int reason) {
   struct stat status {};
   if (reason != EACCES || ::lstat(file.c_str(), &status) != 0) return cannot_write(file, reason);
   return file_error("folder_in_use", file,
-                    fmt::format("user {} began a batch in this folder, and the file may not be opened; if that batch "
+                    fmt::format("user {} started a batch in this folder, and the file cannot be opened; if that batch "
                                 "has ended, remove the file",
                                 status.st_uid));
 }
@@ -120,16 +120,17 @@ std::optional<RunRecord> check_folder(const fs::path& folder, const RunRecord& n
   for (const std::string_view name : kFolderFiles) {
     if (before || !fs::exists(folder / name, ignored)) continue;
     throw file_error("folder_of_another_batch", folder,
-                     fmt::format("holds '{}' without the run.json of its batch; choose another folder", name));
+                     fmt::format("contains '{}' without the run.json of its batch; choose another folder", name));
   }
   remove_leftovers(folder,
                    [](std::string_view name) { return std::ranges::find(kFolderFiles, name) != kFolderFiles.end(); });
   const auto differs = before && has_results(folder) ? difference(*before, now) : std::nullopt;
   if (!differs) return before;
-  throw file_error("folder_of_another_batch", folder,
-                   fmt::format("holds results of another batch: {}; put that back and use --resume, or choose another "
-                               "folder with --out",
-                               *differs));
+  throw file_error(
+      "folder_of_another_batch", folder,
+      fmt::format(
+          "contains results of another batch: {}; restore that and use --resume, or choose another folder with --out",
+          *differs));
 }
 
 }  // namespace slipfit::batch

@@ -74,10 +74,11 @@ class ShardReader {
   std::optional<SummaryPlace> place_;
 };
 
-/// Of a shard that is finished and whose files are as they were written, to the byte.
+/// Returns the record of a finished shard whose files are unchanged to the byte.
 RunRecord record_of(const fs::path& folder) {
   const std::optional<RunRecord> found = read_record(folder);
-  if (!found) throw file_error("not_a_batch", folder, "holds no run.json; expected a folder that slipfit batch wrote");
+  if (!found)
+    throw file_error("not_a_batch", folder, "contains no run.json; expected a folder that slipfit batch wrote");
   const RunRecord& record = *found;
   if (!record.finished) throw not_finished(folder);
   const std::array<std::pair<const char*, std::string>, 3> written{
@@ -105,7 +106,7 @@ ThrownError shards_missing(const RunRecord& common, const std::set<std::size_t>&
                                      fmt::join(missing, ", "), are_more ? ", ..." : "", printable(common.manifest))});
 }
 
-/// What the shards have in common; all of them must be there, once.
+/// Returns the record that all shards share; each shard must be present once.
 RunRecord common_record(const std::vector<fs::path>& shards) {
   RunRecord common;
   std::set<std::size_t> given;
@@ -123,8 +124,8 @@ RunRecord common_record(const std::vector<fs::path>& shards) {
     }
     if (index < 1 || index > shard.shard.count || !given.insert(index).second) {
       throw file_error("shards_differ", folder,
-                       fmt::format("is shard {} of {}, which is none or was given before; give each shard once", index,
-                                   shard.shard.count));
+                       fmt::format("is shard {} of {}, which does not exist or was given before; give each shard once",
+                                   index, shard.shard.count));
     }
     common.progress.seconds += shard.progress.seconds;
     common.processor = processors_of(common, shard);
@@ -151,10 +152,9 @@ BatchProgress merge_rows(std::vector<ShardReader>& readers, std::size_t rows, Fi
     ++(first->place().has_failed ? progress.failed : progress.fitted);
     first->move_to(files);
   }
-  throw ThrownError(
-      {"shards_differ", fmt::format("row {} of the manifest is in no shard, or in two: the recordings' sizes changed "
-                                    "between the shards; run the shards again",
-                                    last_row + 1)});
+  throw ThrownError({"shards_differ", fmt::format("row {} of the manifest is in no shard or in two: the sizes of the "
+                                                  "recordings changed between the shards; run the shards again",
+                                                  last_row + 1)});
 }
 
 void write_merged(const std::vector<fs::path>& shards, const fs::path& folder, RunRecord& record) {

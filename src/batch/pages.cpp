@@ -35,7 +35,7 @@ std::string page_name(const SlotKey& key) {
   return fmt::format("{:05}-{}.html", key.slot + 1, name);
 }
 
-/// Of a page's name; beyond all slots where it is none.
+/// Returns the slot of a page by its name; a number above all slots if the name is not that of a page.
 std::size_t slot_of(std::string_view name) {
   std::size_t number = 0;
   const auto read = std::from_chars(name.data(), name.data() + name.size(), number);
@@ -57,7 +57,7 @@ void check_replaceable(const fs::path& file) {
   std::string begin(kBegin.size(), '\0');
   std::ifstream(file, std::ios::binary).read(begin.data(), static_cast<std::streamsize>(begin.size()));
   if (begin == kBegin) return;
-  throw file_error("not_a_page", file, "is no page of slipfit and is not replaced; choose another --report");
+  throw file_error("not_a_page", file, "is not a page of slipfit and is not replaced; choose another --report");
 }
 
 void replace_page(const fs::path& file, std::string_view content) {
@@ -90,7 +90,7 @@ std::string last_line_of(const fs::path& file) {
 void remove_page_leftovers(const BatchReport& report, const WorkList& list) {
   remove_leftovers(report.file.parent_path() / kFolder, [&](std::string_view name) {
     const std::size_t slot = slot_of(name);
-    return slot < list.is_mine.size() && list.is_mine[slot];  // another shard may be running beside this one
+    return slot < list.is_mine.size() && list.is_mine[slot];  // another shard may be running as well
   });
 }
 

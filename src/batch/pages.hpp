@@ -14,19 +14,20 @@
 
 namespace slipfit::batch {
 
-/// Errors: cannot_write; not_a_page where the index would replace a file that is none.
+/// Prepares the pages. Errors: cannot_write; not_a_page if the index would replace a file that is not a page.
 void prepare_pages(const BatchReport& report, const WorkList& list);
 
 /// Removes the temporary files of pages of this list that killed processes left.
 void remove_page_leftovers(const BatchReport& report, const WorkList& list);
 
-/// Errors: as above.
+/// Writes the page of a recording or group. Errors: as above.
 void write_page(const BatchReport& report, const SlotKey& key, const BatchFit& fit);
 
-/// From the page; nothing where there is none that belongs to the document.
+/// Returns the small trace of a page, or nothing if no page belongs to the document.
 std::optional<std::string> sparkline_on_page(const BatchReport& report, const SlotKey& key, std::string_view document);
 
-/// Of what the log holds, in the manifest's order. Errors: those of ManifestReader, cannot_write, not_a_page.
+/// Writes the index of the results in the log, in the order of the manifest. Errors: those of ManifestReader,
+/// cannot_write, not_a_page.
 void write_index(const BatchReport& report, const std::filesystem::path& manifest, const WorkList& list,
                  const ResultLog& log);
 

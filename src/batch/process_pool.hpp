@@ -15,7 +15,7 @@
 
 namespace slipfit::batch {
 
-/// What became of a job.
+/// The outcome of a job.
 struct Answer {
   enum class End { Replied, TimedOut, Died };
   std::size_t job = 0;

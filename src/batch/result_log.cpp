@@ -44,7 +44,7 @@ struct JournalEntry {
   std::string done;  ///< the last "done" line
 };
 
-/// Of each slot. Torn lines are ignored.
+/// Reads the journal entry of each slot. Incomplete lines are ignored.
 std::vector<JournalEntry> read_journal(const std::filesystem::path& folder, std::size_t slots) {
   constexpr unsigned char kMostCounted = 255;
   std::vector<JournalEntry> entries(slots);

@@ -23,7 +23,7 @@
 
 namespace slipfit::batch {
 
-/// What a folder holds of a batch that began before.
+/// The results of an earlier run that a folder contains.
 struct FoundResults {
   explicit FoundResults(std::size_t slots) : tries(slots, 0) {}
 
@@ -40,7 +40,7 @@ struct FoundResults {
 
 FoundResults find_results(const std::filesystem::path& folder, const RunRecord& before, const WorkList& list);
 
-/// In place of the one of a run before.
+/// Writes the journal, which replaces that of an earlier run.
 void write_journal(const std::filesystem::path& folder, const FoundResults& found);
 void remove_journal(const std::filesystem::path& folder);
 
@@ -99,7 +99,7 @@ class FinalFiles {
   /// Lines without their ends.
   void add_result(const std::string& document, const std::string& summary);
   void add_failure(const std::string& failure, const std::string& summary);
-  /// Errors: cannot_write, of anything before.
+  /// Finishes all files and returns their digests. Errors: cannot_write, of any earlier step.
   FileDigests finish();
 
  private:
@@ -108,7 +108,7 @@ class FinalFiles {
   Replacement failures_;
 };
 
-/// From what the log holds.
+/// Writes the final files from the log.
 FileDigests write_final_files(const std::filesystem::path& folder, const std::filesystem::path& manifest,
                               const WorkList& list, const ResultLog& log);
 

@@ -20,8 +20,8 @@ constexpr unsigned kMostTries = 3;
 
 Error crashed(const WorkItem& item, const std::string& end) {
   return Error{"crashed",
-               fmt::format("{}: the process that fitted it ended {} times ({}); where that was for lack of memory "
-                           "give a part of it as window, or fewer --jobs; else please report it with the recording",
+               fmt::format("{}: the process that fitted it ended {} times ({}); if the reason was lack of memory, fit "
+                           "a part of it (window) or use fewer --jobs; otherwise please report it with the recording",
                            name_of(item), kMostTries, end)};
 }
 
@@ -92,7 +92,7 @@ void Run::tell_replaced() const {
   const auto tell = [this](const std::vector<std::string>& ids, const char* what) {
     if (!ids.empty()) hooks_.tell(fmt::format("{} {} ('{}' first)", ids.size(), what, printable(ids.front())));
   };
-  tell(replaced_, "of the results were of other bytes than their files hold now, and were fitted again");
+  tell(replaced_, "results belonged to files that have changed since, and were fitted again");
   tell(gone_, "recordings cannot be read now; their results are kept");
 }
 
@@ -177,9 +177,10 @@ double Run::limit_of(const WorkItem& item) const {
 void Run::take(const WorkItem& item, const Answer& answer) {
   if (answer.end == Answer::End::TimedOut) {
     take_failure(
-        item, Error{"timed_out", fmt::format("{}: no result after {} s; give a part of it as window, or more time with "
-                                             "--timeout",
-                                             name_of(item), limit_of(item))});
+        item,
+        Error{"timed_out",
+              fmt::format("{}: no result after {} s; fit a part of it (window), or allow more time with --timeout",
+                          name_of(item), limit_of(item))});
     return;
   }
   if (answer.end == Answer::End::Died) {

@@ -20,7 +20,7 @@ namespace slipfit::batch {
 /// put into the log.
 class Run {
  public:
-  /// All outlive the run.
+  /// Starts a run; all arguments outlive it.
   Run(const BatchOptions& options, const BatchHooks& hooks, const WorkList& list, ResultLog& log);
   /// Fits that are at work end with it.
   ~Run() { end(); }
@@ -43,7 +43,7 @@ class Run {
   /// Says which recordings were replaced, or are gone, since they were fitted.
   void tell_replaced() const;
   void fit_groups(std::size_t first_group, std::size_t count);
-  /// Of some groups, in the order of the work list.
+  /// Returns the members of several groups in the order of the work list.
   [[nodiscard]] std::vector<Members> members_of(std::size_t first_group, std::size_t count) const;
   void offer(WorkItem item);
   void finish();

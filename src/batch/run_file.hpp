@@ -10,7 +10,7 @@
 
 namespace slipfit::batch {
 
-/// Of the files of a finished batch, as text; by them a damaged one is known.
+/// Digests of the files of a finished batch as text; they reveal a damaged file.
 struct FileDigests {
   std::string results, summary, failures;
 };
@@ -21,7 +21,7 @@ struct JsonText {
   friend bool operator==(const JsonText&, const JsonText&) = default;
 };
 
-/// What run.json says: what was run, and how far it came.
+/// The contents of run.json: what was run, and how far it got.
 struct RunRecord {
   std::string version;
   std::string build;      ///< build_of_program(), or "unknown": of a program that did not write it
@@ -39,18 +39,18 @@ struct RunRecord {
   FileDigests digests;  ///< once it is finished
 };
 
-/// Of a run that begins now.
+/// Returns the record of a run that starts now.
 RunRecord begin_record(const BatchOptions& options, const Digest& manifest_digest, std::size_t rows);
 
-/// Those of both, each once.
+/// Returns the processors of both records, each once.
 std::string processors_of(const RunRecord& a, const RunRecord& b);
 
 void write_record(const std::filesystem::path& folder, const RunRecord& record);
 
-/// Nothing where the folder has none. Error: folder_of_another_batch where no batch wrote it.
+/// Reads the record of a folder; empty if it has none. The error is folder_of_another_batch if no batch wrote it.
 std::optional<RunRecord> read_record(const std::filesystem::path& folder);
 
-/// What keeps `now` from continuing what `before` began ("the manifest has changed"), or nothing.
+/// Returns the reason why `now` cannot continue the run `before` ("the manifest has changed"), or nothing.
 std::optional<std::string> difference(const RunRecord& before, const RunRecord& now);
 
 }  // namespace slipfit::batch

@@ -29,7 +29,7 @@ std::string suffix_of(std::string_view unit) {
   return suffix;
 }
 
-/// Value, bounds and standard error of an estimate: "low", "high" and "se" stand before the unit in the name.
+/// Value, bounds and standard error of an estimate: "low", "high" and "se" precede the unit in the name.
 void add_estimate(std::vector<SummaryColumn>& columns, const std::string& place, const std::string& name,
                   const std::string& suffix) {
   columns.push_back({name + suffix, Json::json_pointer(place + "/value")});

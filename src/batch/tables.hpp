@@ -11,7 +11,7 @@
 
 namespace slipfit::batch {
 
-/// What the manifest says about a row of summary.csv; of a group `row` is its last one and `file` is empty.
+/// The entries of the manifest in a row of summary.csv; for a group `row` is its last row and `file` is empty.
 struct SummaryKey {
   std::size_t row = 0;
   std::string id;
@@ -21,16 +21,16 @@ struct SummaryKey {
 
 /// The line of names.
 std::string summary_names();
-/// From a document of `slipfit fit --json`; what it does not know is empty. Error: not_readable.
+/// Returns the row of a document of `slipfit fit --json`; unknown values are empty. Error: not_readable.
 std::string summary_of_result(const SummaryKey& key, const std::string& document);
-/// Of a recording that failed.
+/// Returns the summary row of a recording that failed.
 std::string summary_of_failure(const SummaryKey& key, const std::string& code);
 
-/// These do what `slipfit::summary_columns` and `slipfit::summary_row` do.
+/// The names and the row without `row`, as `slipfit::summary_columns` and `slipfit::summary_row` return them.
 std::string summary_names_without_row();
 std::string summary_without_row(const std::string& document);
 
-/// What a merge needs of a row that summary_of_... made.
+/// The parts of a row of summary_of_... that a merge needs.
 struct SummaryPlace {
   std::size_t row = 0;
   bool is_group = false;

@@ -77,7 +77,7 @@ class WorkCollector {
   std::size_t pieces_ = 0;  ///< rows without a group, and groups, so far
 };
 
-/// Reads the manifest once more, to tell which ids stand in it twice.
+/// Reads the manifest once more, to list the ids that occur twice.
 void check_duplicates(const std::filesystem::path& manifest, const std::vector<Digest>& suspects) {
   if (suspects.empty()) return;
   std::unordered_map<std::string, std::size_t> lines;
@@ -116,7 +116,7 @@ std::string id_of_group(const std::string& name) {
 Result<Digest> manifest_digest(const std::filesystem::path& manifest) {
   if (const auto digest = digest_of_file(manifest.string())) return *digest;
   return file_error("not_readable", manifest,
-                    "is no regular file, or cannot be read; a batch reads its manifest several times")
+                    "is not a regular file or cannot be read; a batch reads its manifest several times")
       .error();
 }
 

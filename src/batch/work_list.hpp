@@ -19,7 +19,7 @@ namespace slipfit::batch {
 class IdIndex {
  public:
   void add(std::string_view id, std::size_t slot) { entries_.emplace_back(digest_of(id), slot); }
-  /// After the last `add`, before any question.
+  /// Sorts the list; to be called after the last `add` and before any query.
   void sort();
   [[nodiscard]] std::optional<std::size_t> find(std::string_view id) const;
   /// Digests of the ids that were added more than once.
@@ -29,15 +29,15 @@ class IdIndex {
   std::vector<std::pair<Digest, std::size_t>> entries_;
 };
 
-/// A group of the manifest; its result stands behind that of the last of its recordings.
+/// A group of the manifest; its result follows that of the last of its recordings.
 struct Group {
   std::string name;
   std::size_t first_row = 0;
   std::size_t last_row = 0;
 };
 
-/// What a batch has to do. The entries are not kept but read again when they are needed. Rows count from 1. A slot is
-/// where the result of a row or a group is kept: rows first, then groups in the order of their last rows.
+/// The work of a batch. The entries are not kept but read again when they are needed. Rows count from 1. A slot holds
+/// the result of a row or a group: rows first, then groups in the order of their last rows.
 struct WorkList {
   Digest manifest_digest;
   std::size_t rows = 0;
@@ -62,7 +62,7 @@ WorkList list_work(const BatchOptions& options);
 class Entries {
  public:
   explicit Entries(const std::filesystem::path& manifest) : reader_(value_or_throw(ManifestReader::open(manifest))) {}
-  /// Empty behind the last one.
+  /// Returns the next entry, or nothing after the last one.
   std::optional<ManifestEntry> next() { return value_or_throw(reader_.next()); }
 
  private:
@@ -72,7 +72,7 @@ class Entries {
 /// "group:NAME", the id of a group's result.
 std::string id_of_group(const std::string& name);
 
-/// Error: not_readable, also of a pipe.
+/// Returns the digest of the manifest. The error is not_readable, also for a pipe.
 Result<Digest> manifest_digest(const std::filesystem::path& manifest);
 
 }  // namespace slipfit::batch

@@ -44,7 +44,7 @@ Result<BatchFit> fit_without_exceptions(const WorkItem& item) {
   try {
     return item.fit();
   } catch (const std::bad_alloc&) {
-    return Error{"out_of_memory", name_of(item) + ": not enough memory; give a part of it as window, or fewer --jobs"};
+    return Error{"out_of_memory", name_of(item) + ": not enough memory; fit a part of it (window) or use fewer --jobs"};
   } catch (const std::exception& error) {
     return Error{"internal_error", bug + ": " + printable(error.what())};
   } catch (...) {
@@ -80,7 +80,7 @@ InputState compare_input(const DocumentJson& input, const std::filesystem::path&
   return digest == now->text() ? InputState::Same : InputState::Changed;
 }
 
-/// What a document says of the files that were read for a recording: `file`, `input_digest`, `input_bytes` of each.
+/// Returns `file`, `input_digest` and `input_bytes` of the files that were read for a recording.
 std::vector<DocumentJson> inputs_in(const DocumentJson& recording) {
   std::vector<DocumentJson> inputs{recording};
   for (const DocumentJson& other : recording.value("other_inputs", DocumentJson::array())) {
@@ -89,7 +89,7 @@ std::vector<DocumentJson> inputs_in(const DocumentJson& recording) {
   return inputs;
 }
 
-/// Of each recording of a document; several recordings in a row may be of one file.
+/// Returns the files of each recording of a document; consecutive recordings may be in one file.
 std::vector<std::vector<DocumentJson>> inputs_of(const DocumentJson& recordings) {
   const auto names_in = [](const std::vector<DocumentJson>& inputs) {
     std::vector<DocumentJson> names;
@@ -107,8 +107,8 @@ std::vector<std::vector<DocumentJson>> inputs_of(const DocumentJson& recordings)
   return all;
 }
 
-/// Whether the files of a recording, or of a group's recordings, are those that were read for a document, by their
-/// sizes and digests.
+/// States whether the files of a recording, or of the recordings of a group, are those of the document, by sizes and
+/// digests.
 InputState compare_inputs(const std::string& document, std::vector<InputPaths> paths) {
   const DocumentJson json = DocumentJson::parse(document, nullptr, false);
   if (!json.is_object()) return InputState::Changed;
@@ -146,7 +146,7 @@ std::string name_of(const WorkItem& item) {
   return printable(item.inputs.size() == 1 ? item.inputs.front().front().string() : item.key.id);
 }
 
-/// Of a row with strokes or segments: a fit of all of them, as of a group.
+/// Fits all strokes or segments of a row together, like a group.
 Result<BatchFit> fit_pieces_of(const ManifestEntry& entry, const BatchOptions& options) {
   auto fit = group_fit(options.fit, options.report)(entry.id, {entry});
   if (!fit) return fit;

@@ -29,7 +29,7 @@ struct WorkItem {
 
 std::string name_of(const WorkItem& item);
 
-/// `kept`: the file of the row before, of which this one may be another table.
+/// Fits a recording. `kept` is the file of the previous row, of which this one may be another table.
 Result<BatchFit> fit_recording_of(const ManifestEntry& entry, const BatchOptions& options, reading::KeptFile& kept);
 
 struct Reply {

@@ -8,20 +8,20 @@
 
 namespace slipfit::chart {
 
-/// The colours of Okabe and Ito (2008), which colour-blind readers tell apart, the pale ones darker, and a grey.
+/// The colours of Okabe and Ito (2008), which colour-blind readers can distinguish, the pale ones darker, and a grey.
 enum class Colour { Black, Orange, SkyBlue, Green, Yellow, Blue, Vermillion, Purple, Grey };
 enum class Stroke { Solid, Dashed, Dotted, DashDotted };
 enum class Fill { Plain, Hatched };
 enum class Shape { Dot, Speck, Ring, Triangle, Cross };
 enum class Scale { Linear, Logarithmic };
 
-/// Not finite: a gap in a line.
+/// A point; a coordinate that is not finite makes a gap in a line.
 struct Point {
   double x = 0.0;
   double y = 0.0;
 };
 
-/// What has a name stands in the legend.
+/// A line of a chart; it is in the legend if it has a name.
 struct Line {
   std::string name;
   Colour colour = Colour::Black;
@@ -35,7 +35,7 @@ struct Area {
   Colour colour = Colour::Grey;
   Fill fill = Fill::Plain;
   std::vector<Point> outline;
-  double edge_px = 0.0;  ///< of the line around it: the fill alone is too faint to be told from the paper
+  double edge_px = 0.0;  ///< of the line around it: the fill alone hardly differs from the paper
 };
 
 struct Markers {
@@ -45,7 +45,7 @@ struct Markers {
   std::vector<Point> points;
 };
 
-/// Text beside a point: `degrees` clockwise from right, `distance_px` bridged by a thin line. Negative: text on the
+/// Text next to a point: `degrees` clockwise from right, `distance_px` bridged by a thin line. Negative: text on the
 /// point.
 struct Note {
   Point at;
@@ -62,7 +62,7 @@ struct Axis {
   Scale scale = Scale::Linear;
 };
 
-/// In rows above the axes, or in the panel above, which has the same.
+/// The position of the legend: in rows above the axes, or in the panel above, which has the same entries.
 enum class LegendAt { Above, None };
 
 struct Panel {
@@ -76,7 +76,7 @@ struct Panel {
   LegendAt legend_at = LegendAt::Above;
 };
 
-/// Panels from top to bottom, with 90 px beside their axes.
+/// Panels from top to bottom, with 90 px on both sides of the axes.
 struct Chart {
   std::string title;
   std::vector<std::string> remarks;  ///< lines under the title
@@ -87,8 +87,8 @@ struct Chart {
 /// A file of its own.
 std::string to_svg(const Chart& chart);
 
-/// How a page names a picture: `id` of its own on the page (letters, digits, '-'), `label` for readers who cannot see
-/// it.
+/// The names of a picture on a page: `id` is unique on the page (letters, digits, '-'), `label` describes it for
+/// readers who cannot see it.
 struct PagePlace {
   std::string id;
   std::string label;
@@ -99,8 +99,8 @@ struct PagePlace {
 /// their axes, lines, areas and markers their names, as data- attributes: save.js reads the points back from them.
 std::string to_page_svg(const Chart& chart, const PagePlace& place);
 
-/// What stands in rows above the axes, as an element <ul class="legend-list"> that breaks its lines: for screens that
-/// are narrower than the chart. `id`: of the chart on the page. Empty where a panel has names that the first has not.
+/// Returns the legend as an element <ul class="legend-list"> that wraps its lines, for screens that are narrower than
+/// the chart. `id` is that of the chart on the page. The result is empty if a panel has names that the first one lacks.
 std::string to_page_legend(const Chart& chart, const std::string& id);
 
 }  // namespace slipfit::chart

@@ -10,17 +10,17 @@ namespace slipfit::chart {
 /// Colours as they are, or as the variables --chart-black, --chart-blue, ... and --chart-paper of a page's style sheet.
 enum class Palette { File, Page };
 
-/// SVG elements, one after the other, in the colours of the place where the picture stands.
+/// SVG elements, one after the other, in the colours of the place of the picture.
 class Drawing {
  public:
   explicit Drawing(Palette palette) : palette_(palette) {}
 
-  /// `more`: further attributes, each with a blank before it.
+  /// Draws text. `more` are further attributes, each with a leading blank.
   void text(double x, double y, const std::string& content, const char* css_class, const std::string& more = {});
   void line(double x1, double y1, double x2, double y2, const std::string& style);
   void box(double x, double y, double width, double height, const std::string& style);
   void path(const std::string& data, const std::string& style);
-  /// At these places, in pixels, as one element with these attributes, each with a blank before it.
+  /// Draws markers at these places, in pixels, as one element with these attributes, each with a leading blank.
   void markers(const std::vector<Point>& places, Colour colour, Shape shape, const std::string& attributes = {});
   void raw(const std::string& element) { svg_ += element; }
 
@@ -28,7 +28,7 @@ class Drawing {
   [[nodiscard]] const std::string& svg() const { return svg_; }
   [[nodiscard]] std::string name_of(Colour colour) const;
   [[nodiscard]] std::string stroke_style(const Line& line) const;
-  /// `id`: of the picture, before the names of its patterns.
+  /// Returns the style of an area. `id` is that of the picture and prefixes the names of its patterns.
   [[nodiscard]] std::string area_style(const Area& area, const std::string& id) const;
   /// The patterns that hatched areas name.
   [[nodiscard]] std::string hatches(const std::string& id) const;
@@ -53,8 +53,9 @@ struct Tick {
 /// between them are different doubles.
 Axis drawable(Axis axis);
 
-/// Of a drawable axis. Steps of 1, 2 or 5 times a power of ten, at most `most_steps` of them; decades with their parts
-/// on a logarithmic axis, all decades with values (of very many some) and, where the axis is short, some parts.
+/// Returns the ticks of a drawable axis: steps of 1, 2 or 5 times a power of ten, at most `most_steps` of them; on a
+/// logarithmic axis decades with their parts, all decades with values (some, if they are very many) and, if the axis is
+/// short, some parts.
 std::vector<Tick> ticks_of(const Axis& axis, int most_steps = 8);
 
 constexpr double kLineHeight_px = 18.0;
@@ -70,7 +71,7 @@ struct Frame {
 /// Room that the legend takes above the axes; 0 without one.
 double legend_height_px(const Panel& panel, double width_px);
 
-/// Everything with a name, in the order lines, markers, areas. `id`: of the picture.
+/// Draws the entries of everything with a name, in the order lines, markers, areas. `id` is that of the picture.
 void draw_legend(Drawing& drawing, const Panel& panel, const Frame& frame, const std::string& id);
 
 }  // namespace slipfit::chart

@@ -51,7 +51,8 @@ void draw_entry(Drawing& drawing, const Entry& entry, Spot spot, const std::stri
   draw_sample(drawing, entry, spot, id);
 }
 
-/// Where each entry of a legend above the axes stands, from the upper left corner; further rows where one is full.
+/// Returns the position of each entry of a legend above the axes, from the upper left corner; a full row starts another
+/// one.
 std::vector<Spot> rows_of(const std::vector<Entry>& entries, double width_px) {
   std::vector<Spot> spots;
   Spot next;

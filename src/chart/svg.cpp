@@ -74,7 +74,8 @@ class PanelDrawing {
   }
 
  private:
-  /// What save.js needs to turn pixels into values: of each axis its ends, 1 if it is logarithmic, and where it lies.
+  /// Returns the attributes with which save.js converts pixels into values: the ends of each axis, 1 if it is
+  /// logarithmic, and its position.
   [[nodiscard]] std::string axes_attributes() const {
     const auto axis = [](const Axis& of, double begin, double length) {
       return fmt::format("{} {} {} {:.1f} {:.1f}", of.low, of.high, of.scale == Scale::Logarithmic ? 1 : 0, begin,
@@ -102,7 +103,7 @@ class PanelDrawing {
     return std::isfinite(x_of(point.x)) && std::isfinite(y_of(point.y));
   }
 
-  /// What stands alone is drawn where it is, or not at all.
+  /// Returns true if an isolated point is drawn as a mark.
   [[nodiscard]] bool has_mark(const Point& point) const {
     return std::isfinite(share(x_, point.x)) && std::isfinite(share(y_, point.y));
   }
@@ -136,7 +137,7 @@ class PanelDrawing {
     return data;
   }
 
-  /// As many as have room beside each other.
+  /// Returns as many ticks as fit without overlapping.
   [[nodiscard]] std::vector<Tick> ticks_below() const {
     std::vector<Tick> ticks = ticks_of(x_);
     std::size_t longest = 0;

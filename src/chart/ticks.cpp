@@ -26,7 +26,8 @@ double exponent_of(double value) {
   return std::floor(std::log10(std::abs(value)));
 }
 
-/// With the digits that tell it from its neighbours: a clock of the year 1970 needs ten before its point.
+/// Writes a tick with enough digits to differ from its neighbours: a clock of the year 1970 needs ten before the
+/// decimal point.
 std::string text_of(double value, double step) {
   constexpr double kFew = 6.0;
   constexpr double kMost = 16.0;  // that a double has
@@ -63,7 +64,7 @@ std::string power_of_ten(int part, int decade) {
 }
 
 std::vector<Tick> logarithmic_ticks(const Axis& axis) {
-  constexpr int kMostDecades = 24;  // beyond them some decades stand for all
+  constexpr int kMostDecades = 24;  // beyond them some decades represent all
   const int first = static_cast<int>(std::floor(std::log10(axis.low) + kSlack));
   const int last = static_cast<int>(std::floor(std::log10(axis.high) + kSlack));
   const int stride = 1 + (last - first) / kMostDecades;

@@ -14,15 +14,15 @@ namespace {
 
 using Fits = std::vector<ComparedFit>;
 
-/// The values of one quantity that the fits of a side tell.
+/// The values of one quantity by the fits of a side.
 struct SideValues {
   std::vector<Estimate> known;
   std::string status;
-  std::string why_not;  ///< of the first fit that does not tell it
+  std::string why_not;  ///< of the first fit without it
   bool is_absent = true;
 };
 
-/// From the surest to the least sure.
+/// Returns the rank of a status, from the most to the least reliable.
 std::size_t doubt_of(const std::string& status) {
   constexpr std::array<const char*, 3> kOrder{"identified", "conditional", "weak"};
   return static_cast<std::size_t>(std::ranges::find(kOrder, status) - kOrder.begin());
@@ -90,7 +90,7 @@ void adjust(std::vector<QuantityComparison>& quantities) {
   }
 }
 
-/// By more than rounding of what was typed: a hundredth.
+/// Returns true if a condition differs by more than one percent, the rounding of typed values.
 bool differ(const Comparison& comparison, ComparedCondition condition) {
   constexpr double kRoundedRatio = 1.01;
   const auto range_a = range_of(comparison.a, condition);
@@ -111,23 +111,23 @@ void warn_of_conditions(Comparison& comparison) {
   const Fits& b = comparison.b.fits;
   if (differ(comparison, &ComparedFit::speed_m_per_s)) {
     comparison.warnings.push_back(
-        {"speeds_differ", fmt::format("driving speed of A: {}, of B: {}: whatever depends on the speed (frequency, "
-                                      "spacing, friction) may differ for that reason alone",
+        {"speeds_differ", fmt::format("driving speed of A: {}, of B: {}: quantities that depend on speed (frequency, "
+                                      "spacing, friction) may differ for this reason alone",
                                       stated(comparison.a, &ComparedFit::speed_m_per_s, "m/s"),
                                       stated(comparison.b, &ComparedFit::speed_m_per_s, "m/s"))});
   }
   if (differ(comparison, &ComparedFit::normal_force_N)) {
     comparison.warnings.push_back(
-        {"loads_differ", fmt::format("normal force of A: {}, of B: {}: friction forces differ for that reason, and "
-                                     "frequency and spacing with them; coefficients of friction allow for it",
+        {"loads_differ", fmt::format("normal force of A: {}, of B: {}: friction forces, frequency and spacing differ "
+                                     "for this reason; coefficients of friction account for it",
                                      stated(comparison.a, &ComparedFit::normal_force_N, "N"),
                                      stated(comparison.b, &ComparedFit::normal_force_N, "N"))});
   }
   const auto differs_from_first = [&a](const ComparedFit& fit) { return fit.motion != a.front().motion; };
   if (std::ranges::any_of(a, differs_from_first) || std::ranges::any_of(b, differs_from_first)) {
-    comparison.warnings.push_back({"motions_differ",
-                                   "the recordings do not all show the same kind of motion: numbers "
-                                   "are compared where both sides have them"});
+    comparison.warnings.push_back(
+        {"motions_differ",
+         "the recordings show different kinds of motion: only quantities that both sides have are compared"});
   }
 }
 
@@ -137,8 +137,8 @@ void warn_of_same_recording(Comparison& comparison) {
     for (const ComparedFit& fit : *fits) {
       if (fit.source.empty() || sources.insert(fit.source).second) continue;
       comparison.warnings.push_back(
-          {"recording_repeated", fmt::format("'{}' holds the same bytes as another recording that is compared: it is "
-                                             "no repeat, and what counts it twice finds too small intervals",
+          {"recording_repeated", fmt::format("'{}' is identical to another recording in the comparison: it is not a "
+                                             "repeat, and counting it twice makes intervals too short",
                                              fit.id)});
       return;
     }
@@ -151,12 +151,12 @@ void warn_of_repeats(Comparison& comparison) {
   if (one_a && one_b) {
     comparison.warnings.push_back(
         {"scatter_unknown",
-         "one recording on each side: the intervals come from the standard errors of the fits, and how much repeats "
-         "of a test scatter is not known; that two recordings differ does not show that two materials do (give "
-         "repeats: several files, or a group)"});
+         "one recording on each side: the intervals come from the standard errors of the fits, and the scatter of "
+         "repeated tests is unknown; a difference between two recordings is not a difference between two materials "
+         "(give repeats: several files or a group)"});
   } else if (one_a || one_b) {
     comparison.warnings.push_back(
-        {"scatter_of_one_side", fmt::format("{} is one recording: it is taken to scatter as the repeats of {} do",
+        {"scatter_of_one_side", fmt::format("{} is one recording: it is assumed to scatter like the repeats of {}",
                                             one_a ? 'A' : 'B', one_a ? 'B' : 'A')});
   }
 }

@@ -47,15 +47,15 @@ Estimate estimate_in(const JsonNode& node, const std::string& suffix) {
   return estimate;
 }
 
-/// What is only an interval, or was not measured, cannot be compared.
+/// Returns a value for the comparison; values that are only bounded or were not measured have none.
 ComparedValue value_of(const std::optional<JsonNode>& node, const std::string& suffix) {
-  if (!node || !node->is_object()) return {unknown("its result does not hold it"), {}, true};
+  if (!node || !node->is_object()) return {unknown("its result does not contain it"), {}, true};
   ComparedValue value{estimate_in(*node, suffix), text_in(*node, "status"), false};
   Estimate& estimate = value.estimate;
   if (value.status == "bounded") {
     estimate = {{}, {}, estimate.ci95, "only its interval is known (status bounded)"};
   } else if (value.status == "fixed") {
-    estimate = unknown("held at a stated value (status fixed)");
+    estimate = unknown("fixed at a stated value (status fixed)");
   } else if (!estimate.value) {
     estimate = unknown(estimate.note.empty() ? "not known" : estimate.note);
   }

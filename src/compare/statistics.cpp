@@ -28,7 +28,7 @@ double freedom_of(double quantile) {
   return low;
 }
 
-/// Of the sum of two independent variances (Satterthwaite).
+/// Returns the degrees of freedom of the sum of two independent variances (Satterthwaite).
 double joined_freedom(double variance_a, double freedom_a, double variance_b, double freedom_b) {
   const double sum = square(variance_a + variance_b);
   return sum > 0.0 ? sum / (square(variance_a) / freedom_a + square(variance_b) / freedom_b) : kMostFreedom;
@@ -70,8 +70,8 @@ Sample sample_of(std::span<const Estimate> estimates) {
   return sample;
 }
 
-/// Of the mean. Recordings scatter by at least the standard errors of their fits: where they seem to scatter less, by
-/// chance or because all lie at a bound, the standard errors count.
+/// Returns the variance of the mean. Recordings scatter by at least the standard errors of their fits: if they appear
+/// to scatter less, by chance or because all are at a bound, the standard errors are used.
 double variance_of_mean(const Sample& sample, double variance) {
   return std::max(variance, sample.squared_se) / sample.count;
 }

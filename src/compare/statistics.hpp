@@ -22,13 +22,13 @@ struct Pair {
   double degrees_of_freedom = 0.0;
 };
 
-/// Of one fit on each side. Nothing where a standard error is not known.
+/// Compares one fit on each side; empty if a standard error is unknown.
 std::optional<Pair> by_standard_errors(const Estimate& a, const Estimate& b);
 
-/// Of the values of recordings, at least two on one side and one on the other.
+/// Compares the values of recordings, at least two on one side and one on the other.
 std::optional<Pair> by_scatter(std::span<const Estimate> a, std::span<const Estimate> b);
 
-/// Mean of at least one; of several with the interval that their scatter gives.
+/// Returns the mean of at least one estimate; several have the interval of their scatter.
 Estimate mean_of(std::span<const Estimate> estimates);
 
 Estimate difference_of(const Pair& pair);
@@ -36,7 +36,7 @@ Estimate ratio_of(const Pair& pair);
 /// Two-sided, of the difference; below 0.05 exactly where the 95 % interval leaves 0 out.
 std::optional<double> p_value_of(const Pair& pair);
 
-/// Each p value for the whole family (Holm 1979), in the order given.
+/// Returns each p value adjusted for the whole family (Holm 1979), in the given order.
 std::vector<double> holm(const std::vector<double>& p_values);
 
 }  // namespace slipfit::comparing

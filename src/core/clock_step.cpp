@@ -53,7 +53,7 @@ double median_positive_step(std::span<const double> time_s) {
 std::optional<RoundedClock> rounded_clock(std::span<const double> time_s) {
   constexpr std::size_t kFewest = 16;
   constexpr double kDigits = 0.01;  // of the rounding: what binary fractions leave
-  constexpr double kOften = 0.05;  // of the steps: rarer long ones are lost samples of a clock that is even beside them
+  constexpr double kOften = 0.05;   // of the steps: rarer long ones are lost samples of an otherwise even clock
   if (time_s.size() < kFewest) return std::nullopt;
   const double step_s = (time_s.back() - time_s.front()) / static_cast<double>(time_s.size() - 1);
   double shortest_s = time_s[1] - time_s[0];

@@ -6,7 +6,7 @@
 
 namespace slipfit {
 
-/// How often a clock steps back, and how often it stands still.
+/// The number of steps at which a clock goes back, and at which it does not advance.
 struct ClockOrder {
   std::size_t backward = 0;
   std::size_t repeating = 0;
@@ -14,7 +14,7 @@ struct ClockOrder {
 
 ClockOrder order_of(std::span<const double> time_s);
 
-/// Median of the steps that are not zero, s; 0 where there is none. `time_s` never decreases.
+/// Returns the median of the steps that are not zero, in s; 0 without any. `time_s` never decreases.
 double median_positive_step(std::span<const double> time_s);
 
 /// An even clock, and what its stamps were rounded to.

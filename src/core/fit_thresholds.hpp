@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-/// As thresholds.hpp: what decides in the fit and in what follows from it.
+/// Limits that decide in the fit and in what follows from it, in the form of thresholds.hpp.
 namespace slipfit::thresholds {
 
 // ## Which cycles and samples are fitted
@@ -10,7 +10,7 @@ namespace slipfit::thresholds {
 /// Fewest cycles of a fit. [count; derived: scatter over cycles needs two degrees of freedom]
 inline constexpr std::size_t kFewestFitted = 3;
 
-/// Standard deviations of a sample from the fit, beyond which it is an outlier. [1; derived: one false alarm in 150 000
+/// Standard deviations of a sample from the fit, above which it is an outlier. [1; derived: one false alarm in 150 000
 /// normal samples]
 inline constexpr double kOutlierSigmas = 4.5;
 
@@ -23,25 +23,26 @@ inline constexpr double kWeighedClock = 0.02;
 
 // ## Level and mains in the fit
 
-/// Reduced chi2 above which the level model is in doubt. [1; derived: noise alone gives 1 +- sqrt(2 / samples), and the
-/// noise measured from differences is good to a few percent]
+/// Reduced chi2 above which the level model is questionable. [1; derived: noise alone gives 1 +- sqrt(2 / samples), and
+/// the noise measured from differences is good to a few percent]
 inline constexpr double kSuspectChi2 = 1.2;
 
 /// F ratio of one level a cycle against the polynomial, above which the level wanders. [1; derived: far beyond chance
 /// for 12 and more cycles]
 inline constexpr double kWanderingRatio = 3.0;
 
-/// What the polynomial leaves of the slips' middles over the drop, above which the level wanders. [1; convention]
+/// Residual of the polynomial through the middles of the slips over the drop, above which the level wanders. [1;
+/// convention]
 inline constexpr double kWanderingShare = 0.03;
 
-/// The same over the noise. [1; convention]
+/// Residual of that polynomial over the noise, above which the level wanders. [1; convention]
 inline constexpr double kWanderingNoises = 10.0;
 
 /// Samples in half a period of slips whose middles show the level. [count; derived: peaks are met to (pi / 20)^2 / 2 =
 /// 1 %]
 inline constexpr double kWellSampled = 10.0;
 
-/// What one more term of the level polynomial has to gain beyond BIC. [1; convention: "very strong" evidence, so that
+/// Gain beyond BIC that one more term of the level polynomial needs. [1; convention: "very strong" evidence, so that
 /// scatter alone is not called drift]
 inline constexpr double kDriftHandicap = 10.0;
 
@@ -56,7 +57,7 @@ inline constexpr double kSureLine = 70.0;
 /// [1; derived: exceeded with exp(-0.25 n) by chance with n cycles]
 inline constexpr double kNoPhase = 0.5;
 
-/// Fewest cycles beside which a line is looked for at any frequency. [count; derived: exp(-0.25 n) is a percent of
+/// Fewest cycles with which a line is sought at any frequency. [count; derived: exp(-0.25 n) is a percent of
 /// chance there]
 inline constexpr std::size_t kFewestOfLine = 16;
 
@@ -85,27 +86,28 @@ inline constexpr double kSurelyAhead = 10.0;
 /// samples]
 inline constexpr double kResolvedSamples = 1.5;
 
-/// Standard error of zeta, below which scattering cycles tell it even then. [1; calibrated: as kResolvedSamples]
+/// Standard error of zeta, below which scattering cycles determine it even then. [1; calibrated: as kResolvedSamples]
 inline constexpr double kPinningDamping = 0.01;
 
-/// Standard error of zeta, from which on it is not told. [1; convention: zeta of a slip that shows itself is below 0.5]
+/// Standard error of zeta, from which on it is not reported. [1; convention: zeta of a slip that shows itself is below
+/// 0.5]
 inline constexpr double kTellingDamping = 0.1;
 
-/// Standard errors of the best zeta below 0, beyond which a slip is no damped oscillation. [1; derived: 0.6 % by chance
+/// Standard errors of the best zeta below 0, above which a slip is no damped oscillation. [1; derived: 0.6 % by chance
 /// at zeta = 0]
 inline constexpr double kNegativeSigmas = 2.5;
 
 // ## Intervals
 
 /// Standard errors of the correlation of neighbouring residuals, and of the logarithm of the ratio of the residual
-/// variances in slips and sticks, beyond which intervals come from the scatter over the cycles. [1; derived: 6e-5 by
+/// variances in slips and sticks, above which intervals come from the scatter over the cycles. [1; derived: 6e-5 by
 /// chance]
 inline constexpr double kWhiteSigmas = 4.0;
 
 /// Relative standard error of alpha, from which on its interval comes from a profile. [1; calibrated: sweep_coverage]
 inline constexpr double kKnownRate = 0.15;
 
-/// Standard errors over the cycles of the mean residual in a part of the slip, beyond which the slip is not shaped like
+/// Standard errors over the cycles of the mean residual in a part of the slip, above which the slip is not shaped like
 /// the model's. [1; derived: 5e-5 by chance in eight parts]
 inline constexpr double kMisfitSigmas = 4.5;
 
@@ -124,14 +126,14 @@ inline constexpr double kHalvedStack = 0.5;
 /// model's, in eight stretches]
 inline constexpr double kChanceStack = 1.5;
 
-/// Fewest samples of a slip that tell how its friction weakens. [count; derived: onset, fall and end are two each]
+/// Fewest samples of a slip that determine how its friction weakens. [count; derived: onset, fall and end are two each]
 inline constexpr double kShapeSamples = 6.0;
 
-/// Standard errors between the slopes of early and late sticks, beyond which sticks bend. [1; derived: 0.3 % by chance]
+/// Standard errors between the slopes of early and late sticks, above which sticks bend. [1; derived: 0.3 % by chance]
 inline constexpr double kBendSigmas = 3.0;
 
-/// Standard errors of the rate of the force level, beyond which it is a trend; of the share of the level's slope that
-/// sticks contain, beyond which a reading is excluded. [1; derived: 6e-5 by chance]
+/// Standard errors of the rate of the force level, above which it is a trend; of the share of the level's slope that
+/// sticks contain, above which a reading is excluded. [1; derived: 6e-5 by chance]
 inline constexpr double kTrendSigmas = 4.0;
 
 /// Share of a trend that a measured load leaves unexplained, below which the trend is friction. [1; convention: a
@@ -141,12 +143,12 @@ inline constexpr double kLoadShare = 0.1;
 /// Least k of another reading of a trend, over that of the fit. [1; convention: a trend as steep as the sticks]
 inline constexpr double kLeastStiffness = 0.01;
 
-/// Standard errors between two values of one quantity, beyond which they contradict each other. [1; derived: 6e-5 by
+/// Standard errors between two values of one quantity, above which they contradict each other. [1; derived: 6e-5 by
 /// chance]
 inline constexpr double kAuditSigmas = 4.0;
 
-/// Their difference over the smaller one, up to which they do not; the same of the slopes of the halves of a stick.
-/// [1; convention]
+/// Relative difference of two values of one quantity, up to which they do not contradict each other, and of the slopes
+/// of the halves of a stick. [1; convention]
 inline constexpr double kAuditShare = 0.01;
 
 /// Relative standard error of a mass that is stated without one (Conditions::mass_standard_error_kg). [1; convention]
@@ -155,10 +157,10 @@ inline constexpr double kUsualMassError = 0.02;
 /// Chance at which a line in the sticks is none. [1; convention]
 inline constexpr double kRippleChance = 1e-6;
 
-/// Share of the speed by which a drive swings, above which slips are told to begin at other speeds. [1; convention]
+/// Share of the speed by which a drive swings, above which slips are known to start at other speeds. [1; convention]
 inline constexpr double kRippleShare = 0.02;
 
-/// Factor either way, beyond which the band of a predicted spacing says nothing. [1; convention]
+/// Factor either way, above which the band of a predicted spacing says nothing. [1; convention]
 inline constexpr double kWidestFactor = 2.0;
 
 // ## Status of a parameter
@@ -173,7 +175,7 @@ inline constexpr double kSlipSamples = 3.0;
 /// standard errors]
 inline constexpr double kTellingError = 1.0 / 3.0;
 
-/// Standard errors of the rounding of the slips, beyond which samples were averaged. [1; derived: 0.6 % by chance]
+/// Standard errors of the rounding of the slips, above which samples were averaged. [1; derived: 0.6 % by chance]
 inline constexpr double kRoundedSigmas = 2.5;
 
 /// Share of the variance of an instrument's impulse response for which its unknown shape counts. [1; convention: the
@@ -213,7 +215,7 @@ inline constexpr double kLawChance = 0.01;
 /// recording's own fit]
 inline constexpr double kSweepMisfit = 1.5;
 
-/// Standard errors that leaving out a recording may change, beyond which the recordings disagree. [1; derived: 7e-6 by
+/// Standard errors that leaving out a recording may change, above which the recordings disagree. [1; derived: 7e-6 by
 /// chance for each]
 inline constexpr double kShiftSigmas = 4.5;
 
@@ -228,8 +230,8 @@ inline constexpr double kNotRuledOut = 3.84;
 /// convention]
 inline constexpr double kContradictedMass = 1.25;
 
-/// Standard error of ln w_n from which on slips do not tell whether a ring-down is their motion: another mode of the
-/// rig would agree by chance. [1; derived: 3 of them are a factor of 1.6]
+/// Standard error of ln w_n from which on slips do not determine whether a ring-down is their motion: another mode of
+/// the rig would agree by chance. [1; derived: 3 of them are a factor of 1.6]
 inline constexpr double kTellingFrequency = 0.15;
 
 /// Chance below which slips and a ring-down are not one motion. [1; convention]
@@ -242,62 +244,65 @@ inline constexpr double kAgeingChance = 0.05;
 /// Chance below which ageing has a cut-off. [1; derived: taken wrongly in one sweep of 200]
 inline constexpr double kCutoffChance = 0.005;
 
-/// Least ratio of the longest stick of a sweep to the shortest that tells its cut-off from another law of ageing. [1;
-/// convention]
+/// Least ratio of the longest stick of a sweep to the shortest that distinguishes its cut-off from another law of
+/// ageing. [1; convention]
 inline constexpr double kCutoffStickRatio = 30.0;
 
 /// Least recordings that show a trend of static friction over the speed. [1; convention: two always lie on a line]
 inline constexpr std::size_t kTrendRecordings = 3;
 
-/// The same of k. [1; derived: a line through three has one degree of freedom left]
+/// Least number of recordings that show a dependence of k on speed. [1; derived: a line through three has one degree of
+/// freedom left]
 inline constexpr std::size_t kStiffnessRecordings = 4;
 
 /// Least ratio of their speeds for either. [1; convention]
 inline constexpr double kTrendSpeedRatio = 2.0;
 
-/// Errors by which the spacing predicted without a recording may differ from its own, beyond which it disagrees with
+/// Errors by which the spacing predicted without a recording may differ from its own, above which it disagrees with
 /// the others. [1; calibrated: benchmarks/independent/sweeps.py]
 inline constexpr double kLeftOutErrors = 5.0;
 
 /// Least relative difference for that. [1; calibrated: as above]
 inline constexpr double kLeftOutShare = 0.02;
 
-/// By how many times it stands further apart than half of the recordings: where most do, the model lacks something, and
-/// none is wrong. [1; calibrated: as above, four false alarms in 332 sweeps of other seeds]
+/// The factor by which a recording has to be further away than half of the recordings: if most are far away, the model
+/// lacks something and no recording is wrong. [1; calibrated: as above, four false alarms in 332 sweeps of other seeds]
 inline constexpr double kStandsApart = 8.0;
 
 /// Share of the squared distances of the recordings that a line over ln V holds, above which none is named. [1;
 /// derived: one recording apart at an end of four leaves it 0.6]
 inline constexpr double kGoesWithSpeed = 0.9;
 
-/// ln of the ratio of speeds from which on an end of the sweep tells how far its law carries. [1; convention]
+/// ln of the ratio of speeds from which on an end of the sweep determines how far its law extends. [1; convention]
 inline constexpr double kBeyondDistance = 0.1;
 
-/// Least recordings of which one can be told to be the wrong one. [1; convention: of three, any two may agree by
+/// Least number of recordings of which one can be identified as wrong. [1; convention: of three, any two may agree by
 /// chance]
 inline constexpr std::size_t kNamingRecordings = 4;
 
 // ## Predictions
 
-/// Ratio of a speed to the nearest one of a sweep, up to which a sweep that cannot show a trend of static friction
-/// tells intervals. [1; convention]
+/// Ratio of a speed to the nearest one of a sweep, up to which a sweep that cannot show a trend of static friction has
+/// intervals. [1; convention]
 inline constexpr double kUntrendedRatio = 1.5;
 
 /// Share of the span of a sweep's speeds, in ln V, at which a trend beyond them begins before their ends. [1; derived:
 /// half the distance of neighbours of four recordings]
 inline constexpr double kTrendBegins = 1.0 / 6.0;
 
-/// Ratio to the nearest speed of a sweep, beyond which a prediction is said to be far. [1; convention]
+/// Ratio to the nearest speed of a sweep, above which a prediction is said to be far. [1; convention]
 inline constexpr double kFarRatio = 4.0;
 
 /// Half-width of the 95 % interval of d ln(F_s - F_k) / d ln V where only one speed was measured: static friction that
 /// ages and kinetic friction that depends on the speed. [1; derived: docs/model.md section 13]
 inline constexpr double kFrictionTrend = 0.33;
 
-/// The same of d ln k / d ln V: a stiffness that depends on the rate. [1; derived: as kFrictionTrend]
+/// Half-width of the 95 % interval of d ln k / d ln V for an unmeasured dependence of k on the rate. [1; derived: as
+/// kFrictionTrend]
 inline constexpr double kStiffnessTrend = 0.15;
 
-/// The same of d ln F_k / d ln V. [1; derived: as kFrictionTrend]
+/// Half-width of the 95 % interval of d ln F_k / d ln V for an unmeasured velocity dependence. [1; derived: as
+/// kFrictionTrend]
 inline constexpr double kKineticTrend = 0.04;
 
 /// Least relative standard error of a weak parameter at other speeds than the only one measured; of a conditional one
@@ -308,13 +313,14 @@ inline constexpr double kWeakError = 0.25;
 /// the motions that the covariance allows, at 1.6 88 %, at 2.4 84 % (tests/predict)]
 inline constexpr double kStraightLaw = 0.7;
 
-/// Reach of ln V of the end of stick-slip, above which it is not told. [1; convention: a factor of two either way]
+/// Reach of ln V of the end of stick-slip, above which it is not reported. [1; convention: a factor of two either way]
 inline constexpr double kWidestEnd = 0.6931471805599453;
 
-/// The same where static friction ages. [1; convention: a factor of four, V goes as an exponential there]
+/// Reach of ln V of the end of stick-slip, above which it is not reported, if static friction ages. [1; convention: a
+/// factor of four, V goes as an exponential there]
 inline constexpr double kWidestAgeing = 2.0 * kWidestEnd;
 
-/// Share of the models that the data allow, below which those that stick at a speed tell no intervals. [1; convention:
+/// Share of the models that the data allow, below which those that stick at a speed give no intervals. [1; convention:
 /// 40 of the 800 drawn]
 inline constexpr double kLeastSticking = 0.05;
 

@@ -22,7 +22,7 @@ struct LineSums {
   [[nodiscard]] double slope_error() const { return std::sqrt(variance() / square); }
 };
 
-/// Of the points x(0), y(0) to x(count - 1), y(count - 1).
+/// Sums of the points x(0), y(0) to x(count - 1), y(count - 1).
 template <class X, class Y>
 LineSums line_sums(std::size_t count, const X& x, const Y& y) {
   LineSums sums;
@@ -41,8 +41,8 @@ LineSums line_sums(std::size_t count, const X& x, const Y& y) {
   return sums;
 }
 
-/// The same with a weight of each point, inversely proportional to the variance of y; the weights of all points count
-/// their number.
+/// Returns the sums with a weight of each point, inversely proportional to the variance of y; the weights of all points
+/// sum to their number.
 inline LineSums weighted_line_sums(std::span<const double> x, std::span<const double> y,
                                    std::span<const double> weight) {
   LineSums sums;
@@ -62,7 +62,7 @@ inline LineSums weighted_line_sums(std::span<const double> x, std::span<const do
   return sums;
 }
 
-/// At least two points, not all at one x.
+/// Returns the sums of at least two points that do not all have the same x.
 inline LineSums line_sums(std::span<const double> x, std::span<const double> y) {
   return line_sums(
       x.size(), [&](std::size_t i) { return x[i]; }, [&](std::size_t i) { return y[i]; });

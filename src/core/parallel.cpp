@@ -5,7 +5,7 @@
 namespace slipfit {
 namespace {
 
-/// Of the machine that every process of a batch shares, and so one value for the whole process.
+/// Returns the number of processes that share the machine, one value for the whole process.
 std::atomic<std::size_t>& processes_sharing() {
   static std::atomic<std::size_t> processes = 1;
   return processes;

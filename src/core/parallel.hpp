@@ -24,8 +24,8 @@ inline constexpr std::launch kLaunch = std::launch::async | std::launch::deferre
 /// given, or fewer after share_processors.
 [[nodiscard]] std::size_t usable_processors();
 
-/// For a process of several that compute at the same time: it takes its share of the machine's processors, at least
-/// one. To be called before the process starts threads. `processes`: how many there are, at least 1.
+/// Limits a process that computes at the same time as others to its share of the processors, at least one. It must be
+/// called before the process starts threads. `processes` is their number, at least 1.
 void share_processors(std::size_t processes);
 
 /// async or, where one processor is all there is, deferred: the caller then does it when it needs the result.
@@ -33,7 +33,7 @@ void share_processors(std::size_t processes);
   return usable_processors() > 1 ? kLaunch : std::launch::deferred;
 }
 
-/// `work` for another thread: a StopScope of the calling thread holds there, too.
+/// Returns `work` for another thread, in which a StopScope of the calling thread is valid, too.
 template <class Work>
 [[nodiscard]] auto for_other_thread(const Work& work) {
   return [&work, token = stop_token()] {

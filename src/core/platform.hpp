@@ -40,8 +40,8 @@ inline constexpr const char* kFileOfDescriptor3 = "/proc/self/fd/3";
 inline constexpr const char* kFileOfDescriptor3 = "/dev/fd/3";
 #endif
 
-/// For `send`: an end that nobody reads is an error and no signal. Systems without the flag have a property of the
-/// socket, which connected_sockets sets.
+/// A flag for `send` with which an end that nobody reads is an error and not a signal. Systems without the flag have a
+/// property of the socket, which connected_sockets sets.
 #ifdef MSG_NOSIGNAL
 inline constexpr int kSendFlags = MSG_NOSIGNAL;
 #else
@@ -80,7 +80,7 @@ inline std::array<int, 2> open_pipe() {
   return ends;
 }
 
-/// Both ends of a connection; negative where none can be made.
+/// Returns both ends of a connection; negative numbers if none can be created.
 inline std::array<int, 2> connected_sockets() {
   std::array<int, 2> ends{-1, -1};
 #ifdef SOCK_CLOEXEC
@@ -96,7 +96,7 @@ inline std::array<int, 2> connected_sockets() {
   return ends;
 }
 
-/// What was written is on the disk; false, with errno, where it is not.
+/// Flushes written data to the disk; returns false, with errno, if that fails.
 inline bool sync_data(int descriptor) {
 #ifdef __APPLE__
   return ::fcntl(descriptor, F_FULLFSYNC) == 0 || ::fsync(descriptor) == 0;
@@ -170,7 +170,7 @@ inline void keep_freed_memory([[maybe_unused]] int largest) {
 #endif
 }
 
-/// All memory comes from one heap, which never shrinks. False where the system has no such setting.
+/// Makes all memory come from one heap, which never shrinks. Returns false if the system has no such setting.
 inline bool use_one_heap() {
 #ifdef __GLIBC__
   mallopt(M_MMAP_MAX, 0);
@@ -191,7 +191,7 @@ inline std::optional<std::size_t> large_page() {
 #endif
 }
 
-/// Asks for large pages in a range that begins with one.
+/// Requests large pages in a range that starts with one.
 inline void ask_for_large_pages([[maybe_unused]] void* begin, [[maybe_unused]] std::size_t bytes) {
 #ifdef MADV_HUGEPAGE
   (void)::madvise(begin, bytes, MADV_HUGEPAGE);

@@ -9,7 +9,7 @@
 namespace slipfit {
 namespace {
 
-/// Where the range ends, and around the value.
+/// Returns the interval restricted to the range and extended to the value.
 std::optional<Interval> cut(const Interval& interval, const std::optional<double>& value, const Range& range) {
   Interval result{std::max(interval.low, range.low), std::min(interval.high, range.high)};
   if (value) result = {std::min(result.low, *value), std::max(result.high, *value)};
@@ -37,7 +37,7 @@ Estimate within(Estimate estimate, const Range& range) {
   const bool had_interval = estimate.ci95.has_value();
   estimate.value = within(estimate.value, range);
   if (had_value && !estimate.value) {
-    add_note(estimate.note, "the data give no finite value that is possible for it");
+    add_note(estimate.note, "the data give no finite value within its possible range");
     estimate.standard_error = std::nullopt;
     estimate.ci95 = std::nullopt;
     return estimate;

@@ -53,12 +53,12 @@ Result<Recording> Recording::create(std::vector<double> time_s, std::vector<doub
   if (time_s.size() != force.size()) return Error{"length_mismatch", "time and force differ in length"};
   if (time_s.size() < 2) return Error{"too_few_samples", "fewer than 2 samples with a time and a force"};
   if (!all_readable(time_s) || !all_readable(force)) {
-    return Error{"not_finite", "time or force is not finite, or beyond 9e36: what instruments write for an overload"};
+    return Error{"not_finite", "time or force is not finite or exceeds 9e36, which instruments write for an overload"};
   }
   if (order_of(time_s).backward > 0) return Error{"time_decreases", "time runs backwards"};
   if (time_s.front() == time_s.back()) return Error{"time_constant", "all samples have the same time"};
   if (!std::isfinite(conditions.speed_m_per_s) || conditions.speed_m_per_s <= 0.0) {
-    return Error{"speed_not_positive", "the driving speed must be a positive number of metres a second"};
+    return Error{"speed_not_positive", "the driving speed must be a positive number of metres per second"};
   }
   if (conditions.normal_force_N && !(*conditions.normal_force_N > 0.0 && std::isfinite(*conditions.normal_force_N))) {
     return Error{"normal_force_not_positive", "the normal force must be a positive number of newtons"};

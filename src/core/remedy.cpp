@@ -25,7 +25,7 @@ bool is_request(std::string_view text) {
   return std::ranges::find(kRequests, word) != kRequests.end();
 }
 
-/// From the first request that stands behind a mark; empty without one.
+/// Returns the first request after a punctuation mark, or an empty text.
 std::string_view request_in(std::string_view message) {
   for (std::size_t i = 2; i < message.size(); ++i) {
     const bool is_behind_mark =

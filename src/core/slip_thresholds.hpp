@@ -41,7 +41,7 @@ inline constexpr std::size_t kFewestInStretch = 4;
 /// convention]
 inline constexpr double kMostlySliding = 0.8;
 
-/// Interval over the long ones (90 % are shorter), and over the time of loading, beyond which a pause lies between two
+/// Interval over the long ones (90 % are shorter), and over the time of loading, above which a pause lies between two
 /// slips. [1; convention]
 inline constexpr double kPatience = 2.5;
 

@@ -51,8 +51,8 @@ inline constexpr double kFewestCombRidges = 12.0;
 /// Probability that a random surface shows such a comb of lines, below which it is believed. [1; convention]
 inline constexpr double kSureComb = 1e-4;
 
-/// Scatter of the distances over their mean that a comb may tell of: its phase is followed from ridge to ridge. [1;
-/// derived: three times it is half a turn, beyond which a step could be the opposite one]
+/// Scatter of the distances over their mean that a comb may describe: its phase is followed from ridge to ridge. [1;
+/// derived: three times it is half a turn, above which a step could be the opposite one]
 inline constexpr double kFollowedScatter = 1.0 / 6.0;
 
 /// The same below which a comb whose phase does not wander is taken, whatever the ridges scatter by: roughness moves
@@ -75,7 +75,7 @@ inline constexpr double kSameRidges = 0.3;
 /// Relative difference of a comb's spacing and the distance of the ridges, below which they agree. [1; convention]
 inline constexpr double kCombAgrees = 0.15;
 
-/// The same where nothing but the comb tells of the ridges. [1; convention]
+/// The same if only the comb shows the ridges. [1; convention]
 inline constexpr double kCombRidges = 0.1;
 
 /// Ratio of two spacings, above which the finer may be a pattern of its own. [1; convention]
@@ -103,10 +103,10 @@ inline constexpr double kDrifts = 3.0;
 /// Relative difference of two spacings, below which they are nearly the same. [1; convention]
 inline constexpr double kNearlySame = 0.15;
 
-/// Largest whole number of slips to a ridge, or of ridges to a slip, that is told. [count; convention]
+/// Largest whole number of slips to a ridge, or of ridges to a slip, that is reported. [count; convention]
 inline constexpr double kMostSlipsToRidge = 12.0;
 
-/// Reach of a ratio, above which no whole number is told. [1; derived: half of it is the next number's]
+/// Reach of a ratio, above which no whole number is reported. [1; derived: half of it is the next number's]
 inline constexpr double kWholeReach = 0.25;
 
 }  // namespace slipfit::thresholds

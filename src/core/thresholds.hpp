@@ -42,7 +42,7 @@ inline constexpr double kSineFit = 0.05;
 inline constexpr double kPureWave = 1e-4;
 
 /// Twice the logarithm of the likelihood of sticks and slips over that of three harmonics, the null model without
-/// sticks, below which the two cannot be told apart. [1; convention: odds of ten to one]
+/// sticks, below which the two cannot be distinguished. [1; convention: odds of ten to one]
 inline constexpr double kEvidence = 4.6;
 
 /// Scatter of the periods, over the period, below which what repeats keeps time like a clock. [1; convention: pick-up
@@ -100,10 +100,10 @@ inline constexpr double kFewestCycleSamples = 4.0;
 /// docs/accuracy.md]
 inline constexpr double kRegular = 0.01;
 
-/// Scatter over mean of the intervals, above which slips are counted even beside a fit. [1; convention]
+/// Scatter over mean of the intervals, above which slips are counted even if there is a fit. [1; convention]
 inline constexpr double kCounted = 0.15;
 
-/// Drop over noise of a sample, below which noise hides slips. [1; calibrated: simulated slips are missed below 3]
+/// Drop over noise of a sample, below which noise conceals slips. [1; calibrated: simulated slips are missed below 3]
 inline constexpr double kHiding = 6.0;
 
 /// Relative standard error of a count that guides the search of the spectrum. [1; convention]
@@ -168,7 +168,7 @@ inline constexpr double kSignificant = 0.01;
 /// [1; derived: a line that is there for half of the recording has at most half of its energy in each of two quarters]
 inline constexpr double kBurst = 0.7;
 
-/// Fewest cycles of a repetition in the spectrum. [count; derived: fewer cannot be told from wander]
+/// Fewest cycles of a repetition in the spectrum. [count; derived: fewer cannot be distinguished from wander]
 inline constexpr double kFewestPeriods = 2.5;
 
 // ## Slips and what changes on the way
@@ -209,7 +209,7 @@ inline constexpr std::size_t kFewestForChange = 10;
 /// chance]
 inline constexpr double kBeyondScatter = 6.0;
 
-/// Smallest relative change that is told. [1; convention]
+/// Smallest relative change that is reported. [1; convention]
 inline constexpr double kNotableChange = 0.2;
 
 /// Mean length of a run of equal values, from which on the logger is quicker than the converter. [samples; convention]
@@ -279,7 +279,7 @@ inline constexpr double kFewestWaves = 3.0;
 /// Most waves over slips. [1; derived: beyond half of the slips two frequencies look alike]
 inline constexpr double kMostWaves = 0.45;
 
-/// Spread of the onset forces over the error of one, below which they tell of the noise, not of the cycles.
+/// Spread of the onset forces over the error of one, below which they reflect the noise, not the cycles.
 /// [1; convention]
 inline constexpr double kStandsOut = 3.0;
 
@@ -293,11 +293,11 @@ inline constexpr double kLeastSpeedRatio = 1.3;
 /// Samples of a fall, below which it is as long as the clock makes it. [count; convention]
 inline constexpr double kSamplesOfFall = 4.0;
 
-/// Samples of a swing, below which straight sticks cannot be told from it. [count; convention]
+/// Samples of a swing, below which straight sticks cannot be distinguished from it. [count; convention]
 inline constexpr double kSamplesOfSwing = 10.0;
 
-/// Averaging time of the sensor over the period of a swing, above which straight sticks cannot be told from it.
-/// [1; derived: a fall lasts as long as the average at least, and its rounded ends as long again on either side]
+/// Averaging time of the sensor over the period of a swing, above which straight sticks cannot be distinguished from
+/// it. [1; derived: a fall lasts as long as the average at least, and its rounded ends as long again on either side]
 inline constexpr double kAverageOfSwing = 0.25;
 
 }  // namespace slipfit::thresholds

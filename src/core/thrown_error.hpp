@@ -17,7 +17,7 @@ class ThrownError : public std::runtime_error {
   Error error_;
 };
 
-/// What `make()` returns, or the error that it throws.
+/// Returns the value of `make()`, or the error that it throws.
 template <class Make>
 auto result_of(const Make& make) -> Result<decltype(make())> {
   try {

@@ -14,12 +14,12 @@ constexpr double kTurn_rad = 2.0 * std::numbers::pi;
 
 enum Base : std::size_t { kLength, kMass, kTime, kCurrent, kTemperature, kLight, kAngle, kTurns, kOther, kBases };
 
-/// Exponents of the bases. Turns are kept apart from radians: "rpm" is a frequency too, "rad/s" is not. `kOther` stands
+/// Exponents of the bases. Turns are kept apart from radians: "rpm" is a frequency too, "rad/s" is not. `kOther` is
 /// for what slipfit recognises and never converts, such as counts, decibels and humidity.
 using Powers = std::array<int, kBases>;
 
-/// Which prefixes a unit takes. Not those that nobody writes: "Mm", "Ms" and "Mg" are millimetres, milliseconds and
-/// milligrams with a capital, "Min" is a minute and no mega-inch.
+/// The prefixes that a unit accepts, except those that nobody writes: "Mm", "Ms" and "Mg" are millimetres, milliseconds
+/// and milligrams with a capital, and "Min" is a minute, not a mega-inch.
 enum class Prefixes { None, Small, Metric, Word };
 
 struct Unit {
@@ -170,7 +170,7 @@ constexpr std::array kUnitTable = std::to_array<Unit>({
     {"ftlb|ftlbs|ftlbf|lbft|lbsft|lbfft", kPound_N * 12.0 * kInch_m, kJoule},
     {"ozin|ozfin|inoz|inozf", kPound_N / 16.0 * kInch_m, kJoule},
 
-    // Recognised beside a force, so that a units row with them is one.
+    // Recognised next to a force, so that a units row with them is one.
     {"W", 1.0, kWatt, Prefixes::Metric},
     {"Pa", 1.0, kPascal, Prefixes::Metric},
     {"kpa", 1e3, kPascal},

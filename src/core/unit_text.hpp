@@ -7,7 +7,7 @@
 
 namespace slipfit {
 
-/// What a text says as a unit: a factor to SI and the powers of the bases.
+/// A parsed unit: a factor to SI and the powers of the bases.
 struct ParsedUnit {
   double factor = 1.0;
   Powers powers{};

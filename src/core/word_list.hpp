@@ -7,7 +7,7 @@
 
 namespace slipfit {
 
-/// Whether a list of words, parted by `separator`, holds the word.
+/// Returns true if a list of words, separated by `separator`, contains the word.
 inline bool is_in(std::string_view list, std::string_view word, char separator = ' ') {
   for (;;) {
     const std::size_t end = std::min(list.find(separator), list.size());
@@ -17,12 +17,12 @@ inline bool is_in(std::string_view list, std::string_view word, char separator =
   }
 }
 
-/// What parts words on a line, and the line's end.
+/// Returns true for characters that separate words on a line and for its end.
 inline bool is_blank(char c) {
   return std::string_view(" \t\r\n\v\f").find(c) != std::string_view::npos;
 }
 
-/// Without blanks on either side.
+/// Returns the text without surrounding blanks.
 inline std::string_view trim(std::string_view text) {
   while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
   while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);

@@ -54,7 +54,7 @@ double displacement_m(const Motion& motion) {
   return motion.cycle ? motion.cycle->periodic_displacement_m : kNone;
 }
 
-/// What figure 8 shows of one damping ratio.
+/// The curves of figure 8 for one damping ratio.
 struct DampedCurves {
   chart::Line exact, paper, exact_ratio, paper_ratio, corrected_ratio;
 };

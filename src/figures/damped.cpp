@@ -1,4 +1,4 @@
-// Figure 7: the sticking degree with damping, the exact solution beside the paper's, and the limits of both.
+// Figure 7: the sticking degree with damping, the exact solution and the paper's, and the limits of both.
 
 #include <fmt/format.h>
 
@@ -62,7 +62,7 @@ void add_damped_curves(const PrintedLimit& printed, Colour colour, Table& table,
   panel.lines.push_back(exact);
 }
 
-/// Entries of the legend that stand for every colour.
+/// Entries of the legend that apply to every colour.
 void add_keys(chart::Panel& panel) {
   panel.lines.push_back({"paper's approximation, eq. (38)", Colour::Grey, Stroke::Dashed, {}});
   panel.markers.push_back({"exact limit, where it jumps to 0", Colour::Grey, Shape::Dot, {}});

@@ -79,7 +79,7 @@ chart::Panel map_of(const Limits& limits) {
 
 std::vector<FigureFile> regime_map() {
   const Limits found = limits();
-  const chart::Chart chart{"Map of regimes, Coulomb friction",
+  const chart::Chart chart{"Stability map, Coulomb friction",
                            {"Between the dashed and the dash-dotted line the paper expects stick-slip,",
                             "but its equations have no solution there."},
                            {map_of(found)}};

@@ -58,7 +58,7 @@ double sticking_degree_at_limit(double damping_ratio);
 
 std::vector<double> evenly_spaced(double low, double high, int intervals);
 
-/// The same with equal ratios; low > 0.
+/// Returns values with equal ratios; low > 0.
 std::vector<double> logarithmically_spaced(double low, double high, int intervals);
 
 }  // namespace slipfit::figures

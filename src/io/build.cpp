@@ -15,7 +15,7 @@
 namespace slipfit::reading {
 namespace {
 
-/// What every recording of a part is made of.
+/// The data from which every recording of a part is built.
 struct Interpreted {
   std::vector<double> time_s;
   std::vector<double> force;
@@ -45,7 +45,7 @@ void interpret_force(Interpreted& part, ForceQuantity column) {
        "a zero force in newtons cannot be subtracted from a friction coefficient without the normal force"});
 }
 
-/// Stamps in which a coarse rounding hides an even clock become that clock.
+/// Replaces time stamps that are a coarsely rounded even clock by that clock.
 void restore_clock(Interpreted& part) {
   const std::optional<RoundedClock> clock = rounded_clock(part.time_s);
   if (!clock) return;
@@ -53,8 +53,8 @@ void restore_clock(Interpreted& part) {
     part.time_s[i] = clock->begin_s + clock->step_s * static_cast<double>(i);
   }
   part.provenance.assumed.push_back(
-      fmt::format("The times are those of an even clock rounded to {:.4g} s: one sample every {:.6g} s.",
-                  clock->rounding_s, clock->step_s));
+      fmt::format("The times are rounded to {:.4g} s from an even clock: one sample every {:.6g} s.", clock->rounding_s,
+                  clock->step_s));
 }
 
 Interpreted interpret(Part part, const LoadedFile& file, const Conditions& conditions) {
@@ -86,23 +86,22 @@ void settle_sign(Interpreted& part) {
   const SuddenChanges changes = sudden_changes(part.force);
   if (!is_negative_throughout(part.force)) {
     const bool is_turned = changes == SuddenChanges::Rises && !is_reciprocating({part.force, part.displacement_m});
-    if (is_turned) turn_sign(part, "The force is mostly negative and rises suddenly: its sign was turned.");
+    if (is_turned) turn_sign(part, "The force is mostly negative and rises suddenly: its sign was reversed.");
   } else if (part.conditions.zero_force_N || changes != SuddenChanges::Falls) {
-    turn_sign(part, "The force is negative throughout: its sign was turned.");
+    turn_sign(part, "The force is negative throughout: its sign was reversed.");
   } else {
     part.provenance.assumed.emplace_back(
         "The force is negative throughout, but it rises slowly and falls suddenly as friction does: its sign was kept, "
-        "and the zero of the sensor is not that of the force.");
+        "so the zero of the sensor is not at zero force.");
   }
 }
 
 ThrownError reciprocating(const std::vector<double>& time_s, const std::string& file) {
   return ThrownError(
-      {"reciprocating",
-       fmt::format("{}: the sign of the force turns with every stroke (a reciprocating test), and one "
-                   "stroke is one recording; take them all with --strokes, or one with --window T0:T1 (in s; from {} "
-                   "to {}), or state the sensor's reading at no force with --zero",
-                   file, time_s.front(), time_s.back())});
+      {"reciprocating", fmt::format("{}: the sign of the force changes with every stroke (a reciprocating test), and "
+                                    "one stroke is one recording; read all with --strokes, or one with --window T0:T1 "
+                                    "(in s; from {} to {}), or state the sensor reading at zero force with --zero",
+                                    file, time_s.front(), time_s.back())});
 }
 
 Recording create(Interpreted part, const std::string& file) {
@@ -112,7 +111,7 @@ Recording create(Interpreted part, const std::string& file) {
   return std::move(recording).value();
 }
 
-/// Where a displacement is known, only what moves at nearly one speed: a crank turns slowly at its ends.
+/// Returns the samples at nearly constant speed if a displacement is known: a crank turns slowly at its ends.
 SampleRange at_full_speed(const Interpreted& part, const Stroke& stroke) {
   constexpr std::size_t kBlocks = 32;
   constexpr double kFull = 0.9;
@@ -147,8 +146,8 @@ NamedRecording record(const Interpreted& part, const Stroke& stroke, std::size_t
   if (!part.normal_force_N.empty()) own.normal_force_N = cut(part.normal_force_N);
   for (double& force : own.force) force = stroke.is_positive ? force : -force;
   own.provenance.assumed.push_back(
-      fmt::format("Stroke {} is {:.6g} to {:.6g} s, without the ends in which the force turns; its force has the sign "
-                  "{} in the file.",
+      fmt::format("Stroke {} is {:.6g} to {:.6g} s, without the ends at which the force reverses; its force has the "
+                  "sign {} in the file.",
                   number, own.time_s.front(), own.time_s.back(), sign));
   if (const auto moved = moved_m_per_s(part, kept)) {
     auto warning = compare_speed(part.conditions.speed_m_per_s, *moved, "in this stroke the displacement");
@@ -176,11 +175,10 @@ std::vector<NamedRecording> build_strokes(Part part, const LoadedFile& file, con
     if (is_wanted && strokes[i].begin < strokes[i].end) wanted.push_back(i);
   }
   if (wanted.empty()) {
-    const char* const why = strokes.empty()
-                                ? ": the force does not turn its sign again and again, as in the strokes of a "
-                                  "reciprocating test; leave out --strokes"
-                                : ": there is no stroke of this sign in which the force does more than turn; "
-                                  "take longer strokes, or a part of one with --window";
+    const char* const why =
+        strokes.empty() ? ": the sign of the force does not alternate as in a reciprocating test; leave out --strokes"
+                        : ": no stroke of this sign is longer than the reversal of the force; use longer strokes, or a "
+                          "part of one with --window";
     throw ThrownError({"no_strokes", file.name + why});
   }
   // Of both directions a pair at a time, so that each is there as often as the other.

@@ -22,7 +22,7 @@ std::vector<NamedRecording> build_strokes(Part part, const LoadedFile& file, con
 /// A joint fit of more takes minutes.
 constexpr std::size_t kMostPieces = 16;
 
-/// Speed and load: what the user states, what the file's columns say, and whether they agree.
+/// Speed and load: as stated by the user, as contained in columns, and their agreement.
 struct StatedConditions {
   Conditions conditions;
   std::vector<std::string> assumed;
@@ -30,12 +30,12 @@ struct StatedConditions {
   std::optional<Estimate> moved_m_per_s{};  ///< Provenance
 };
 
-/// What the user states counts; a column fills in what is not stated. Errors: no_speed, speed_varies,
-/// speed_contradicted.
+/// Returns speed and load: stated values take precedence, and columns supply the others. Errors: no_speed,
+/// speed_varies, speed_contradicted.
 StatedConditions state_conditions(const Rows& rows, const Choice& choice, const Layout& layout,
                                   const Conditions& conditions, const std::string& file);
 
-/// Where a displacement moves at another speed than the stated one. `what`: the displacement, in words.
+/// Warns if a displacement moves at another speed than the stated one. `what` describes the displacement.
 std::optional<Warning> compare_speed(double stated_m_per_s, double moved_m_per_s, const std::string& what);
 
 }  // namespace slipfit::reading

@@ -64,7 +64,7 @@ Parsed parse_comma(std::string_view text) {
   std::array<char, kLongestNumber> copy{};
   const std::size_t length = std::min(text.size(), copy.size());
   if (text.substr(0, length).find('.') != std::string_view::npos) {
-    // "1.5" is no number where the comma is decimal, but it may stand in a tag behind one.
+    // "1.5" is no number where the comma is decimal, but a tag after a number may contain it.
     const Parsed parsed = parse_comma(text.substr(0, text.find('.')));
     return parsed.length == text.find('.') ? Parsed{} : parsed;
   }

@@ -7,7 +7,7 @@
 
 namespace slipfit::reading {
 
-/// How a line falls into cells and how a cell spells a number.
+/// The way in which a line is divided into cells and a number is written.
 struct Dialect {
   char delimiter = ',';  ///< ',', ';', tab, ' ' for any run of blanks, NUL for one cell a line
   bool decimal_comma = false;
@@ -26,21 +26,21 @@ enum class CellKind {
 struct Cell {
   CellKind kind = CellKind::Text;
   double value = 0.0;
-  std::string_view tag;  ///< what stands behind a number: "N1" in "1.79 N1"
+  std::string_view tag;  ///< text after a number: "N1" in "1.79 N1"
 };
 
-/// Understands blanks around the number, a sign, exponents, quotes and a tag that begins with a letter.
+/// Reads a cell with blanks around the number, a sign, exponents, quotes, and a tag that starts with a letter.
 Cell read_cell(std::string_view text, bool decimal_comma);
 
 /// A number that fills the text from end to end (blanks aside); the fast way, for the rows of a recording. NaN if not.
 double plain_number(std::string_view text, bool decimal_comma);
 
-/// Every cell of a line. Quotes protect delimiters and stay in the cell.
+/// Splits a line into its cells. Quotes protect delimiters and stay in the cell.
 std::vector<std::string_view> split(std::string_view line, const Dialect& dialect);
-/// The same into a vector that is used again for every line.
+/// Splits a line into a vector that is reused for every line.
 void split(std::string_view line, const Dialect& dialect, std::vector<std::string_view>& cells);
 
-/// Whether the comma at `comma`, in a line that begins at `begin`, stands behind h:m:s and before a digit.
+/// Returns true if the comma at `comma`, in a line that starts at `begin`, is between h:m:s and a digit.
 bool is_comma_in_clock(const char* begin, const char* comma, const char* line_end);
 
 /// The end of the cell that begins at `cell` (for blanks: that begins there with no blank), at the latest that of the
@@ -69,17 +69,17 @@ inline const char* end_of_cell(const char* cell, const char* line_end, const Dia
 /// quote is not closed, or is followed by more text.
 std::optional<std::vector<std::string>> csv_fields(std::string_view line, char delimiter);
 
-/// Without blanks and one pair of quotes around it.
+/// Returns the text without blanks and one surrounding pair of quotes.
 std::string_view unquote(std::string_view text);
 
 struct DateStart {
   double midnight_s = 0.0;  ///< since 1970
-  std::string_view clock;   ///< what stands behind the date, without a time zone; empty: nothing does
+  std::string_view clock;   ///< text after the date, without a time zone; may be empty
 };
 
-/// Of "2024-05-12T12:22:17.5Z", "2024/05/12 12:22:17", "12.05.2024 12:22:17,5", "5/12/2024 12:22:17 PM". Empty where no
-/// date begins the text. Which of day and month is first in the last of these forms is not known, so that its midnight
-/// is 0: its clock counts within the day.
+/// Reads a date such as "2024-05-12T12:22:17.5Z", "2024/05/12 12:22:17", "12.05.2024 12:22:17,5", "5/12/2024 12:22:17
+/// PM"; empty if the text does not start with a date. The order of day and month in the last form is unknown, so its
+/// midnight is 0 and its clock counts within the day.
 std::optional<DateStart> read_date(std::string_view text);
 
 }  // namespace slipfit::reading

@@ -70,7 +70,7 @@ std::size_t find_column(const Layout& layout, const std::string& wanted, const s
                         const std::string& file) {
   const std::size_t found = find_column_of_any(layout, wanted, option, file);
   if (layout.columns[found].may_be_numeric()) return found;
-  throw ThrownError({"column_not_numeric", fmt::format("{}:{}: {} holds text, not numbers; choose another with {}",
+  throw ThrownError({"column_not_numeric", fmt::format("{}:{}: {} contains text, not numbers; choose another with {}",
                                                        file, layout.first_data_line, describe(layout, found), option)});
 }
 
@@ -86,7 +86,8 @@ std::optional<std::size_t> find_time_column(const Layout& layout, const std::str
   const auto is_numeric = [](const Column& column) { return column.is_numeric(); };
   const bool is_alone = std::ranges::count_if(layout.columns, is_numeric) == 1;
   if (found.empty() && !is_alone) {
-    // By monotony. A clock runs in even steps, and a whole number that steps by one beside it is a line number.
+    // Monotonic columns are compared: a clock has even steps, and a column of integers with step one next to it
+    // contains line numbers.
     found = best_columns(layout, [&](const Column& column, std::size_t) {
       const bool is_counter = column.is_whole && column.is_regular && column.median_step == 1.0;
       return !rises(column) ? 0 : is_counter ? 1 : column.is_regular ? 3 : 2;

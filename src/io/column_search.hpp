@@ -15,11 +15,12 @@ std::string describe(const Layout& layout, std::size_t column);
 /// "the columns are 1 'time', 2 'Fx', 3 'Fy'".
 std::string list_columns(const Layout& layout);
 
-/// By name (exact, then without unit or case) or 1-based number, whatever it holds. Error: unknown_column.
+/// Finds a column with any contents by name (exact, then without unit or case) or by its 1-based number. Error:
+/// unknown_column.
 std::size_t find_column_of_any(const Layout& layout, const std::string& wanted, const std::string& option,
                                const std::string& file);
 
-/// The same of a column of numbers. Errors: unknown_column, column_not_numeric.
+/// Finds a column of numbers. Errors: unknown_column, column_not_numeric.
 std::size_t find_column(const Layout& layout, const std::string& wanted, const std::string& option,
                         const std::string& file);
 
@@ -38,7 +39,7 @@ std::vector<std::size_t> best_columns(const Layout& layout, const ScoreOf& score
   return best;
 }
 
-/// Where the time is; empty where no column may be it. Error: ambiguous_time_column.
+/// Finds the column of the time; empty if no column can be it. Error: ambiguous_time_column.
 std::optional<std::size_t> find_time_column(const Layout& layout, const std::string& file);
 
 }  // namespace slipfit::reading

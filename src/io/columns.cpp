@@ -41,7 +41,7 @@ struct GuessedUnit {
   std::string_view why;
 };
 
-/// Of a date in days, 1.7 s: a clock in seconds would step by 20 microseconds for hours.
+/// The shortest step of a date in days, 1.7 s: a clock in seconds would step by 20 microseconds for hours.
 constexpr double kShortStep_d = 2e-5;
 
 /// Computers stamp in whole milliseconds since some start, or in milliseconds, micro- or nanoseconds since 1970.
@@ -57,7 +57,7 @@ GuessedUnit guess_time_unit(const Column& column) {
   if (mentions(column.name.base, {"micros"})) return {"us", "its name"};
   if (is_stamp && column.is_whole && column.median_step > 1.0) return {"ms", "whole time stamps in steps above 1"};
   if (column.is_whole && column.is_regular && column.median_step == 1.0) {
-    return {"s", "no unit is given; if it counts samples, give --sample-rate"};
+    return {"s", "no unit is stated; if the column counts samples, give --sample-rate"};
   }
   return {"s", "no unit is given"};
 }
@@ -80,12 +80,13 @@ Channel time_channel(const Request& request, std::size_t column) {
   channel.scale = scale.value().scale;
   channel.is_clock = is_guess && guess.unit == "d";
   channel.is_unit_assumed = is_guess;
-  channel.sentence = is_guess ? fmt::format("Time is {}, taken to be in {} ({}).", name, unit, guess.why)
-                              : fmt::format("Time is {}, in {}{}.", name, printable(unit), told ? " (as told)" : "");
+  channel.sentence = is_guess ? fmt::format("Time is {}, assumed to be in {} ({}).", name, unit, guess.why)
+                              : fmt::format("Time is {}, in {}{}.", name, printable(unit), told ? " (as stated)" : "");
   return channel;
 }
 
-/// Of a test at a known speed the displacement tells the time: t = x / V. Empty where there is none with a unit.
+/// Returns the displacement that gives the time of a test at a known speed, t = x / V; empty without one that has a
+/// unit.
 std::optional<Channel> displacement_as_time(const Request& request) {
   const auto& columns = request.layout.columns;
   const auto way = std::ranges::find_if(columns, [](const Column& column) {
@@ -98,9 +99,9 @@ std::optional<Channel> displacement_as_time(const Request& request) {
   std::ranges::copy_if(way->values, std::back_inserter(numbers), [](double value) { return std::isfinite(value); });
   const double direction = numbers.back() < numbers.front() ? -1.0 : 1.0;
   const auto column = static_cast<std::size_t>(way - columns.begin());
-  return Channel{
-      column, direction * scale.value().scale / request.speed_m_per_s, ForceQuantity::Force_N,
-      fmt::format("Time is {} over the driving speed, t = x/V (there is no clock).", describe(request.layout, column))};
+  return Channel{column, direction * scale.value().scale / request.speed_m_per_s, ForceQuantity::Force_N,
+                 fmt::format("Time is {} divided by the driving speed, t = x/V (the file has no time column).",
+                             describe(request.layout, column))};
 }
 
 /// Nothing where the sampling rate is the clock.
@@ -120,7 +121,7 @@ std::optional<Channel> choose_time(const Request& request) {
 
 /// About a clock that is counted from the sampling rate.
 std::string counted_clock_sentence(const Layout& layout, double sample_rate_Hz) {
-  std::string sentence = fmt::format("Time is counted from 0 at {} samples a second (as told).", sample_rate_Hz);
+  std::string sentence = fmt::format("Time is counted from 0 at {} samples per second (as stated).", sample_rate_Hz);
   for (std::size_t c = 0; c < layout.columns.size(); ++c) {
     if (layout.columns[c].name.role == Role::Time)
       sentence += fmt::format(" The times in {} are not used.", describe(layout, c));
@@ -128,7 +129,7 @@ std::string counted_clock_sentence(const Layout& layout, double sample_rate_Hz) 
   return sentence;
 }
 
-/// Candidates for the force, best first in rank; a "load" beside a friction coefficient is the normal load.
+/// Candidates for the force, best first in rank; a "load" next to a friction coefficient is the normal load.
 std::vector<std::size_t> force_candidates(const Layout& layout, std::optional<std::size_t> time,
                                           const std::optional<std::string>& force_scale) {
   const auto is_usable = [&](const Column& column, std::size_t c) {
@@ -187,8 +188,8 @@ std::size_t choose_force(const Request& request, std::optional<std::size_t> time
   return candidates.front();
 }
 
-/// From a column of volts or of another quantity, by the stated force per unit of it. Without a unit in the file it is
-/// that of the scale.
+/// Returns the force from a column of volts or another quantity, by the stated force per unit. Without a unit in the
+/// file it is that of the scale.
 Channel scaled_channel(const Request& request, std::size_t column, const std::string& text) {
   const auto scale = parse_force_scale(text);
   const std::string described = describe(request.layout, column);
@@ -203,25 +204,25 @@ Channel scaled_channel(const Request& request, std::size_t column, const std::st
                      "--force-unit");
   }
   return Channel{column, (is_known ? of_column->factor : 1.0) * scale->N_per_SI, ForceQuantity::Force_N,
-                 fmt::format("Force is {}, in {}, at {} (as told).", described, printable(unit), printable(text))};
+                 fmt::format("Force is {}, in {}, at {} (as stated).", described, printable(unit), printable(text))};
 }
 
 /// A torque over the radius at which the contact lies. Error: no_radius.
 Channel torque_channel(const Request& request, std::size_t column, const std::string& unit, double N_m) {
   const std::string described = describe(request.layout, column);
   const double radius_m = radius_for_torque(request.options.radius_m, fmt::format("{}: {}", request.file, described));
-  return Channel{
-      column, N_m / radius_m, ForceQuantity::Force_N,
-      fmt::format("Force is {}, a torque (unit {}), over the radius of {} m.", described, printable(unit), radius_m)};
+  return Channel{column, N_m / radius_m, ForceQuantity::Force_N,
+                 fmt::format("Force is {}, a torque (unit {}), divided by the radius of {} m.", described,
+                             printable(unit), radius_m)};
 }
 
-/// What to do about a unit that is no force.
+/// Returns advice for a unit that is not a force.
 std::string force_remedy(const std::string& unit) {
   const auto known = read_unit(unit);
   if (known && known->powers == kVolt) return "--force-scale '5 N/V' (newtons a volt of this sensor)";
   return fmt::format(
-      "--force-unit, such as --force-unit N, or the newtons for a unit of the column with --force-scale, "
-      "such as --force-scale '5 N/{}'",
+      "--force-unit, such as --force-unit N, or the newtons per unit of the column with --force-scale, such as "
+      "--force-scale '5 N/{}'",
       unit);
 }
 
@@ -234,7 +235,7 @@ Channel without_unit(const Request& request, std::size_t column) {
                    fmt::format("Friction coefficient is {}.", described)};
   }
   return Channel{column, 1.0, ForceQuantity::Force_N,
-                 fmt::format("Force is {}, taken to be in N (no unit is given).", described)};
+                 fmt::format("Force is {}, assumed to be in N (no unit is stated).", described)};
 }
 
 /// The unit decides between force, torque and coefficient; without one the name does.
@@ -244,7 +245,7 @@ Channel force_channel(const Request& request, std::size_t column) {
   const std::string unit = is_told ? *request.options.force_unit : request.layout.columns[column].name.unit;
   if (unit.empty()) return without_unit(request, column);
   const std::string described = describe(request.layout, column);
-  const std::string in_unit = fmt::format("in {}{}", printable(unit), is_told ? " (as told)" : "");
+  const std::string in_unit = fmt::format("in {}{}", printable(unit), is_told ? " (as stated)" : "");
   const auto as_force = parse_unit(unit, Dimension::Force);
   if (as_force) {
     return Channel{column, as_force.value().scale, ForceQuantity::Force_N,

@@ -21,14 +21,14 @@ struct Channel {
   bool is_unit_assumed = false;                     ///< of the time: the file names none
 };
 
-/// Only rows whose cell says this are read.
+/// A filter that reads only rows with this value.
 struct WhereFilter {
   std::size_t column = 0;
   std::string text;
   std::optional<double> number;  ///< where the text is one: 4 is 4.0
 };
 
-/// Which columns are read, and how.
+/// The columns to read, and their units.
 struct Choice {
   std::optional<Channel> time;  ///< empty: the sample rate is the clock
   Channel force;
@@ -42,19 +42,19 @@ struct Choice {
 
 /// Errors: unknown_column, column_not_numeric, no_time_column, ambiguous_time_column, no_force_column,
 /// ambiguous_force_column, unknown_unit, conflicting_options. `file` is how messages call the file. A displacement over
-/// `speed_m_per_s` (0: not known) stands in for a clock that is missing.
+/// `speed_m_per_s` (0: not known) replaces a missing clock.
 Choice choose_columns(const Layout& layout, const ReadOptions& options, double speed_m_per_s, const std::string& file);
 
-/// By which a torque is divided to give the force. `place` begins the message. Error: no_radius.
+/// Returns the radius by which a torque is divided to give the force. `place` starts the message. Error: no_radius.
 double radius_for_torque(const std::optional<double>& radius_m, const std::string& place);
 
-/// What stands beside time and force: normal force, speed, displacement, numbers of steps, the column of --where. A
-/// column that nobody named is used where its name and unit leave no doubt, and is otherwise no reason to refuse a
+/// The columns other than time and force: normal force, speed, displacement, numbers of steps, the column of --where. A
+/// column that was not selected is used if its name and unit are unambiguous, and is otherwise no reason to refuse a
 /// file. Errors: unknown_column, column_not_numeric, unknown_unit, conflicting_options.
 Choice with_side_columns(Choice choice, const Layout& layout, const ReadOptions& options, const std::string& file);
 
-/// Of several columns that may be the tangential force, those whose quotient with the normal force is the column of
-/// friction coefficients; all of them where that does not tell.
+/// Returns, of several possible columns of the tangential force, those whose quotient with the normal force is the
+/// column of friction coefficients; all of them if that does not decide.
 std::vector<std::size_t> those_of_coefficient(const Layout& layout, std::vector<std::size_t> candidates);
 
 }  // namespace slipfit::reading

@@ -37,8 +37,8 @@ bool has_zero_in_front(std::string_view cell) {
   return cell.size() > 1 && cell[0] == '0' && is_digit(cell[1]);
 }
 
-/// How much of a row is understood: 1 where every column is, little where one is not, 0 without a number. Dates and
-/// missing readings are understood, and are no numbers. Blank cells count a little: "6,<tab>1," has two columns of
+/// Returns how much of a row is understood: 1 if every column is, little if one is not, 0 without a number. Dates and
+/// missing readings are understood but are not numbers. Blank cells count a little: "6,<tab>1," has two columns of
 /// numbers, not three of which the last is blank in some rows.
 double row_weight(const std::vector<std::string_view>& cells, bool decimal_comma) {
   constexpr double kBlank = 0.05;

@@ -21,7 +21,7 @@ namespace {
 
 using namespace reading;
 
-/// In the order of Role; empty where it cannot be told.
+/// In the order of Role; empty if it is unknown.
 constexpr std::array<const char*, 10> kQuantities{
     "", "time", "force", "normal_force", "friction_coefficient", "displacement", "speed", "step", "torque", ""};
 
@@ -34,7 +34,7 @@ std::vector<ColumnInfo> columns_of(const Layout& layout) {
   return columns;
 }
 
-/// As an option takes it: the name where no other column has it, else the number.
+/// Returns the text that an option accepts for a column: its name if it is unique, otherwise its number.
 std::string option_text(const Layout& layout, std::size_t column) {
   const std::string& name = layout.columns[column].name.text;
   const auto same = std::ranges::count_if(layout.columns, [&](const Column& other) { return other.name.text == name; });
@@ -68,7 +68,8 @@ std::vector<StepInfo> infos_of(const Rows& rows, std::span<const Step> steps, bo
   return infos;
 }
 
-/// What can be chosen; where columns cannot, any column of numbers, for the sake of the rows and their steps.
+/// Returns the columns that can be chosen; if none can, any column of numbers, so that rows and steps are still
+/// reported.
 Choice choice_for(const Layout& layout, const ReadOptions& options, FileInfo& info, const std::string& file) {
   auto chosen = result_of([&] { return choose_columns(layout, options, 0.0, file); });
   if (chosen) {
@@ -82,7 +83,7 @@ Choice choice_for(const Layout& layout, const ReadOptions& options, FileInfo& in
   return any;
 }
 
-/// The recording that would be read, where it can be; at any speed where no column tells it.
+/// The recording that would be read, where it can be; at any speed if no column contains it.
 void add_recording(FileInfo& info, Part part, const LoadedFile& file) {
   info.strokes = std::max<std::size_t>(1, find_strokes({part.rows.force, part.rows.displacement_m}).size());
   Conditions conditions;
@@ -125,7 +126,7 @@ FileInfo inspect(const std::filesystem::path& path, const std::string& name, con
   return inspect(open_file(path, options), name, options);
 }
 
-/// Of one that is not a table among several.
+/// Describes a file that does not contain several tables.
 TableInfo inspect_whole(TextStream file, const std::string& name, const ReadOptions& options) {
   auto info =
       with_errors_of_reading(name, [&] { return inspect(open_file(std::move(file), name, options), name, options); });

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t kLongestName = 255;
 
-/// Whether something was told: the number and the unit of a match, as a quantity.
+/// Returns a matched number and unit as a quantity, or nothing.
 std::optional<double> quantity_in(const std::smatch& match, const std::string& unit, Dimension dimension) {
   std::string number = match[1];
   std::ranges::replace(number, ',', '.');

@@ -90,12 +90,12 @@ bool is_names_row(const std::vector<std::string_view>& cells) {
     if (kind == CellKind::Text || kind == CellKind::Missing) ++texts;
   }
   if (cells.size() > 1) return texts > 0;
-  // Above a single column any console text may stand.
+  // Any console text may precede a single column.
   const ColumnName name = read_name(cells.front(), {});
   return texts > 0 && (name.role != Role::Unknown || !name.unit.empty()) && name.text.size() < 40;
 }
 
-/// Of names of columns, without regard to units.
+/// Returns the number of known column names, regardless of units.
 std::ptrdiff_t count_known_names(const std::vector<std::string_view>& cells) {
   return std::ranges::count_if(cells, [](std::string_view cell) {
     const Role role = read_name(cell, {}).role;

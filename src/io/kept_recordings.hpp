@@ -11,11 +11,11 @@
 
 namespace slipfit::reading {
 
-/// As slipfit::read_pieces, of rows one after the other that name tables of one file: that is opened once.
+/// Reads pieces like slipfit::read_pieces; consecutive rows that name tables of one file open it once.
 Result<std::vector<NamedRecording>> read_pieces(KeptFile& kept, const std::filesystem::path& file,
                                                 const Conditions& conditions, const ReadOptions& options);
 
-/// As slipfit::read_recording.
+/// Reads a recording like slipfit::read_recording.
 Result<Recording> read_recording(KeptFile& kept, const std::filesystem::path& file, const Conditions& conditions,
                                  const ReadOptions& options);
 

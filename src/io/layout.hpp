@@ -28,11 +28,11 @@ struct Column {
   std::vector<double> values;  ///< of every row looked at; NaN where it holds no number
 
   [[nodiscard]] bool is_numeric() const { return numbers + clocks > 0 && numbers + clocks >= texts; }
-  /// No text in it: it may be a column of readings that are all missing.
+  /// Returns true if the column contains no text: it may be a column of missing readings.
   [[nodiscard]] bool may_be_numeric() const { return is_numeric() || (texts == 0 && missing > 0); }
 };
 
-/// How the text is laid out, from its first part.
+/// The layout of the text, detected from its first part.
 struct Layout {
   Dialect dialect;
   std::vector<Column> columns;
@@ -40,7 +40,7 @@ struct Layout {
   std::size_t skipped_lines = 0;         ///< text before the data that is neither names nor units
   std::vector<std::size_t> unread_rows;  ///< 1-based lines before the data that look like rows of it
   bool has_names = false;
-  std::string names_line;  ///< as it stands in the file: above a further part of the data it stands again
+  std::string names_line;  ///< as in the file: it is repeated above a further part of the data
   std::size_t rows = 0;    ///< looked at
   double mean_line_length = 0.0;
 };
@@ -54,10 +54,10 @@ std::vector<std::string_view> choose_samples(const std::vector<std::string_view>
 /// The dialect under which most of the lines are rows of numbers; nothing where none makes any.
 std::optional<Dialect> find_dialect(const std::vector<std::string_view>& lines);
 
-/// Whether the comma parts the columns and is the decimal sign, too: "0,001,0,51" below two names.
+/// Returns true if the comma is both column separator and decimal sign: "0,001,0,51" below two names.
 bool is_comma_twice(const std::vector<std::string_view>& lines, const Layout& layout);
 
-/// Nothing where the lines hold no rows of numbers.
+/// Returns the layout, or nothing if the lines contain no rows of numbers.
 std::optional<Layout> find_layout(const std::vector<std::string_view>& lines);
 
 /// The names row and the units row above the data, as cells; empty where there is none.

@@ -37,7 +37,7 @@ std::vector<double> block_medians(std::span<const double> values) {
   return medians;
 }
 
-/// Whether the halves differ by more than the bound.
+/// Returns true if the halves differ by more than the bound.
 bool drifts(std::span<const double> blocks, double bound) {
   const std::size_t half = blocks.size() / 2;
   return half > 0 && std::abs(mean_of(blocks.first(half)) - mean_of(blocks.last(half))) > bound;

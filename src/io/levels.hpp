@@ -20,7 +20,7 @@ struct Level {
 /// holds nothing but zeros or no numbers.
 std::optional<Level> level_of(std::span<const double> values);
 
-/// How fast a displacement moves in each of so many parts, without sign; parts without a duration are left out.
+/// Returns the speed of a displacement in each of several parts, without sign; parts without duration are left out.
 std::vector<double> block_speeds_m_per_s(std::span<const double> time_s, std::span<const double> displacement_m,
                                          std::size_t blocks);
 

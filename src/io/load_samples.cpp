@@ -14,12 +14,13 @@ namespace {
 void check_samples(const Samples& samples, const ReadOptions& options) {
   check_options(options, samples.name);
   if (samples.time.empty() && !options.sample_rate_Hz) {
-    throw ThrownError({"no_time_column",
-                       fmt::format("{}: there is no time; give one for each sample, or --sample-rate", samples.name)});
+    throw ThrownError(
+        {"no_time_column",
+         fmt::format("{}: the times are missing; give one for each sample, or --sample-rate", samples.name)});
   }
   if (samples.time.empty() || samples.time.size() == samples.force.size()) return;
-  throw ThrownError({"length_mismatch", fmt::format("{}: {} times and {} forces, expected as many of each",
-                                                    samples.name, samples.time.size(), samples.force.size())});
+  throw ThrownError({"length_mismatch", fmt::format("{}: {} times and {} forces, expected equal numbers", samples.name,
+                                                    samples.time.size(), samples.force.size())});
 }
 
 Channel time_channel(const ReadOptions& options) {

@@ -27,7 +27,7 @@ bool is_comment_or_blank(std::string_view line) {
   return text.empty() || text.front() == '#';
 }
 
-/// Of the names row: spreadsheets write semicolons where the comma is decimal.
+/// Returns the delimiter of the header line: spreadsheets write semicolons if the comma is the decimal sign.
 char delimiter_of(std::string_view names) {
   for (const char delimiter : {',', ';', '\t'}) {
     if (names.find(delimiter) != std::string_view::npos) return delimiter;
@@ -45,9 +45,8 @@ class ManifestReader::Implementation {
   void read_names() {
     const std::string_view line = next_line();
     if (line.data() == nullptr) {
-      throw ThrownError(
-          {"missing_column", name_ + ": holds only blank lines and comments; expected a line of names such as "
-                                     "id,file,speed_m_per_s, then a line for each recording"});
+      throw ThrownError({"missing_column", name_ + ": contains only blank lines and comments; expected a header line "
+                                                   "such as id,file,speed_m_per_s and a line for each recording"});
     }
     delimiter_ = delimiter_of(line);
     columns_ = value_or_throw(find_manifest_columns(fields_of(line), place()));
@@ -66,9 +65,8 @@ class ManifestReader::Implementation {
   [[nodiscard]] std::vector<std::string> fields_of(std::string_view line) const {
     auto fields = csv_fields(line, delimiter_);
     if (fields) return *std::move(fields);
-    throw ThrownError(
-        {"open_quote", place() + ": a quote is not closed, or text stands behind a closed one; expected \"...\" "
-                                 "around a whole field, on one line"});
+    throw ThrownError({"open_quote", place() + ": a quote is not closed, or text follows a closing quote; expected "
+                                               "\"...\" around a whole field, on one line"});
   }
 
   /// The next line that says something; without data at the end.
@@ -94,7 +92,7 @@ class ManifestReader::Implementation {
     const std::vector<std::string> cells = fields_of(line);
     if (cells.size() != columns_.count) {
       throw ThrownError(
-          {"wrong_field_count", fmt::format("{}: {} in '{}', expected {} as in the line of names", place(),
+          {"wrong_field_count", fmt::format("{}: {} in '{}', expected {} as in the header line", place(),
                                             counted(cells.size(), "field"), printable(trim(line)), columns_.count)});
     }
     for (const ManifestColumn& column : columns_.read) {
@@ -164,7 +162,7 @@ Result<std::vector<ManifestEntry>> read_manifest_group(const std::filesystem::pa
   if (!entries.empty()) return entries;
   if (!group) return empty_manifest(name);
   if (groups.empty()) {
-    return Error{"unknown_group", name + ": no recording names a group; add a column 'group', or leave out --group"};
+    return Error{"unknown_group", name + ": no recording has a group; add a column 'group', or leave out --group"};
   }
   return Error{"unknown_group", fmt::format("{}: no recording of group '{}', expected one of: {}", name,
                                             printable(*group), fmt::join(groups, ", "))};

@@ -23,7 +23,7 @@ std::string spelled_out(std::string_view unit) {
   return text;
 }
 
-/// What stands behind the base: nothing, "[mm/s]", "(mm/s)" or "_mm_per_s".
+/// The unit after the base of a column name: none, "[mm/s]", "(mm/s)" or "_mm_per_s".
 struct UnitText {
   std::string unit;
   bool in_brackets = false;
@@ -73,7 +73,8 @@ const ManifestColumn* find_read(const ManifestColumns& columns, const ManifestFi
   return found == columns.read.end() ? nullptr : &*found;
 }
 
-/// What a standard error belongs to, which is read before it, and how it is stated; empty: no standard error.
+/// The quantity to which a standard error belongs, which is read first, and the way it is stated; empty if the column
+/// is not a standard error.
 struct Measured {
   double value = 0.0;  ///< 0: not stated
   const char* absent = nullptr;
@@ -81,11 +82,12 @@ struct Measured {
 };
 std::optional<Measured> measured_by(std::string_view column, const ManifestEntry& entry) {
   if (column == "speed_se") {
-    return Measured{entry.conditions.speed_m_per_s, "no_speed", "a speed beside it (--speed), of which it is a part"};
+    return Measured{entry.conditions.speed_m_per_s, "no_speed",
+                    "a speed as well (--speed), of which it is a percentage"};
   }
   if (column == "mass_se") {
     return Measured{entry.conditions.mass_kg.value_or(0.0), "no_mass",
-                    "a mass beside it (--mass), of which it is a part"};
+                    "a mass as well (--mass), of which it is a percentage"};
   }
   return std::nullopt;
 }
@@ -117,7 +119,7 @@ Result<double> number_in(const std::string& text, const ManifestEntry& entry, co
   }
   const Cell number = read_cell(text, decimal_comma && text.find(',') != std::string::npos);
   if (number.kind == CellKind::Number && number.tag.empty()) return number.value * *column.scale;
-  return *refusal("bad_number", text, "a plain number, in the unit that the column's name gives");
+  return *refusal("bad_number", text, "a plain number in the unit of the column's name");
 }
 
 std::optional<Error> set_number(ManifestEntry& entry, const ManifestColumn& column, const std::string& cell,
@@ -171,8 +173,9 @@ Result<ManifestColumns> find_manifest_columns(const std::vector<std::string>& na
       continue;
     }
     if (const ManifestColumn* const other = find_read(columns, column.value()->field)) {
-      return Error{"duplicate_column", fmt::format("{}: the columns '{}' and '{}' say the same, expected one of them",
-                                                   place, other->name, column.value()->name)};
+      return Error{"duplicate_column",
+                   fmt::format("{}: the columns '{}' and '{}' state the same quantity, expected one of them", place,
+                               other->name, column.value()->name)};
     }
     columns.read.push_back(*column.value());
   }
@@ -180,9 +183,9 @@ Result<ManifestColumns> find_manifest_columns(const std::vector<std::string>& na
     if (field.need == ManifestField::Need::Nothing || find_read(columns, &field) != nullptr) continue;
     const std::string ignored =
         columns.ignored.empty() ? "" : fmt::format(", not understood: {}", fmt::join(columns.ignored, ", "));
-    return Error{"missing_column", fmt::format("{}: there is no column '{}'{}; expected a line of names such as "
-                                               "id,file,speed_m_per_s",
-                                               place, field.full_name(), ignored)};
+    return Error{"missing_column",
+                 fmt::format("{}: there is no column '{}'{}; expected a header line such as id,file,speed_m_per_s",
+                             place, field.full_name(), ignored)};
   }
   std::ranges::stable_sort(columns.read, [](const ManifestColumn& a, const ManifestColumn& b) {
     return turn_of(a.field->said.column) < turn_of(b.field->said.column);

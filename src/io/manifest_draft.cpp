@@ -90,7 +90,7 @@ std::vector<DraftEntry> entries_of(const fs::path& file, const TableInfo& table,
   return entries;
 }
 
-/// Of a file that slipfit wrote: a table of a batch, of cycles, a curve, a prediction, a manifest.
+/// Returns true for files that slipfit wrote: a table of a batch or of cycles, a curve, a prediction, a manifest.
 bool is_of_slipfit(const fs::path& file) {
   constexpr auto kBeginnings = std::to_array<std::string_view>(
       {"row,id,group,file,status,", "id,code,message", "id,file,speed_m_per_s", "cycle,peak_s,trough_s,",
@@ -158,8 +158,8 @@ ManifestDraft writable(ManifestDraft draft) {
   std::erase_if(draft.entries, [&](const DraftEntry& entry) {
     if (std::ranges::none_of(entry.file.string(), is_control)) return false;
     draft.skipped.push_back({"bad_id", slipfit::printable(entry.file.string()) +
-                                           ": the name has a line end or another control character, which a manifest "
-                                           "cannot hold; rename the file"});
+                                           ": the name contains a line end or another control character, which a "
+                                           "manifest cannot contain; rename the file"});
     return true;
   });
   return draft;

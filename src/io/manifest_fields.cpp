@@ -40,7 +40,7 @@ std::optional<Error> set_id(ManifestEntry& entry, const std::string& cell) {
   const bool has_control =
       std::ranges::any_of(cell, [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; });
   if (has_slash || has_control || cell.starts_with("group:")) {
-    return refusal("bad_id", cell, "a name without slash or control character that does not begin with 'group:'");
+    return refusal("bad_id", cell, "a name without slash or control character that does not start with 'group:'");
   }
   entry.id = to_utf8(cell);
   return std::nullopt;
@@ -84,7 +84,7 @@ std::optional<Error> set_unit(ManifestEntry& entry, const std::string& cell) {
 std::optional<Error> set_step(ManifestEntry& entry, const std::string& cell) {
   const double step = plain_number(cell, false);
   if (!(step >= 0.0 && step < 1e9 && step == std::floor(step)))
-    return refusal("bad_step", cell, "the number of a step, as slipfit info lists it");
+    return refusal("bad_step", cell, "the number of a step as listed by slipfit info");
   entry.options.step = static_cast<std::size_t>(step);
   return std::nullopt;
 }
@@ -118,7 +118,7 @@ std::optional<Error> set_segments(ManifestEntry& entry, const std::string& cell)
 
 std::optional<Error> set_force_scale(ManifestEntry& entry, const std::string& cell) {
   entry.options.force_scale = cell;
-  return parse_force_scale(cell) ? std::nullopt : refusal("unknown_unit", cell, "newtons for a unit, such as 5 N/V");
+  return parse_force_scale(cell) ? std::nullopt : refusal("unknown_unit", cell, "newtons per unit, such as 5 N/V");
 }
 
 using Bound = ManifestField::Bound;
@@ -150,32 +150,32 @@ constexpr std::array kFields = std::to_array<ManifestField>({
                  Bound::AboveZero, set_number_of<&Conditions::normal_force_N>),
     number_field({"zero_force", "--zero", "Sensor reading at no force (N); absolute forces need it"}, "_N",
                  Dimension::Force, Bound::None, set_number_of<&Conditions::zero_force_N>),
-    number_field(
-        {"mass", "--mass",
-         "Moving mass: 0.0307 (kg), '30.7 g'; gives w_n where averaging hides it, else held against k / w_n^2"},
-        "_kg", Dimension::Mass, Bound::AboveZero, set_number_of<&Conditions::mass_kg>),
+    number_field({"mass", "--mass",
+                  "Moving mass: 0.0307 (kg), '30.7 g'; used for w_n if averaging by the sensor conceals it, otherwise "
+                  "compared with k/w_n^2"},
+                 "_kg", Dimension::Mass, Bound::AboveZero, set_number_of<&Conditions::mass_kg>),
     number_field({"mass_se", "--mass-uncertainty", "Standard error of the mass: 5g, or a percentage: 1% (default: 2%)"},
                  "_kg", Dimension::Mass, Bound::NotNegative, set_number_of<&Conditions::mass_standard_error_kg>),
     number_field({"sensor_bandwidth", "--sensor-bandwidth",
-                  "Bandwidth (-3 dB) of the sensor, first order: 500 (Hz), 2kHz; the fit lets its model lag by it"},
+                  "Bandwidth (-3 dB) of the sensor, first order: 500 (Hz), 2kHz; the model includes the lag"},
                  "_Hz", Dimension::Frequency, Bound::AboveZero, set_number_of<&Conditions::sensor_bandwidth_Hz>),
-    number_field({"sensor_average", "--sensor-average,--averaging",
-                  "Time over which each sample is averaged: 0.002 (s), 2ms, 0 for an instant; the fit averages its "
-                  "model over it"},
-                 "_s", Dimension::Time, Bound::NotNegative, set_number_of<&Conditions::sensor_average_s>),
+    number_field(
+        {"sensor_average", "--sensor-average,--averaging",
+         "Time over which each sample is averaged: 0.002 (s), 2ms, 0 for none; the model includes the averaging"},
+        "_s", Dimension::Time, Bound::NotNegative, set_number_of<&Conditions::sensor_average_s>),
     number_field({"sensor_resonance", "--sensor-resonance", "Natural frequency of the load cell: 800 (Hz), 2kHz"},
                  "_Hz", Dimension::Frequency, Bound::AboveZero, set_number_of<&Conditions::sensor_resonance_Hz>),
     number_field(
-        {"drive_period", "--drive-period", "Period of what may set the rhythm, a motor's step or an excitation: 20ms"},
-        "_s", Dimension::Time, Bound::AboveZero, set_number_of<&Conditions::drive_period_s>),
-    number_field({"drive_path", "--drive-path", "Path over which the drive's force repeats, a tooth or a turn: 2mm"},
+        {"drive_period", "--drive-period", "Period of a possible excitation, such as the steps of a motor: 20ms"}, "_s",
+        Dimension::Time, Bound::AboveZero, set_number_of<&Conditions::drive_period_s>),
+    number_field({"drive_path", "--drive-path",
+                  "Displacement after which the force of the drive repeats, such as a tooth or a turn: 2mm"},
                  "_m", Dimension::Length, Bound::AboveZero, set_number_of<&Conditions::drive_path_m>),
-    text_field(
-        {"force_view", "--force-view", "Force that the sensor sees: spring (taken without it), transmitted, contact"},
-        set_force_view),
+    text_field({"force_view", "--force-view", "Force that the sensor measures: spring (default), transmitted, contact"},
+               set_force_view),
     text_field({"drift", "--drift",
-                "How a trend of the force level is read: sensor (the sensor drifts), friction (the friction changes); "
-                "without it intervals include both where the data do not decide"},
+                "Cause of a trend of the force level: sensor (drift) or friction (change); default: intervals include "
+                "both unless the data decide"},
                set_drift),
     text_field({"group"}, set_label<&Labels::group>),
     text_field({"sample"}, set_label<&Labels::sample>),
@@ -190,41 +190,45 @@ constexpr std::array kFields = std::to_array<ManifestField>({
     text_field({"force_column", "--force-column", kColumnHelp, Of::Reading}, set_text_of<&ReadOptions::force_column>),
     text_field({"normal_force_column", "--normal-force-column", kColumnHelp, Of::Reading},
                set_text_of<&ReadOptions::normal_force_column>),
-    text_field({"speed_column", "--speed-column", "Name or 1-based number; of rpm with --radius", Of::Reading},
-               set_text_of<&ReadOptions::speed_column>),
-    number_field({"radius", "--radius",
-                  "Distance of the contact from the axis: 12mm; for a torque, or a speed of rotation", Of::Reading},
-                 "_m", Dimension::Length, Bound::AboveZero, set_number_of<&ReadOptions::radius_m>),
+    text_field(
+        {"speed_column", "--speed-column", "Name or 1-based number; a column in rpm needs --radius", Of::Reading},
+        set_text_of<&ReadOptions::speed_column>),
+    number_field(
+        {"radius", "--radius",
+         "Distance of the contact from the axis of rotation: 12mm; for a torque or a rotational speed", Of::Reading},
+        "_m", Dimension::Length, Bound::AboveZero, set_number_of<&ReadOptions::radius_m>),
     text_field({"time_unit", "--time-unit", "Unit of the time column: ms, min", Of::Reading},
                set_unit<Dimension::Time, &ReadOptions::time_unit>),
     text_field({"force_unit", "--force-unit",
                 "Unit of the force column: mN, kgf; 1 for a coefficient, 'N m' for a torque", Of::Reading},
                set_unit<Dimension::Force, &ReadOptions::force_unit>),
+    text_field({"force_scale", "--force-scale", "Force per unit of the force column: '5 N/V'", Of::Reading},
+               set_force_scale),
+    number_field(
+        {"sample_rate", "--sample-rate", "Sampling rate (Hz) of a recording without a time column", Of::Reading}, "_Hz",
+        Dimension::Frequency, Bound::AboveZero, set_number_of<&ReadOptions::sample_rate_Hz>),
     text_field(
-        {"force_scale", "--force-scale", "Force for a unit of what the force column holds: '5 N/V'", Of::Reading},
-        set_force_scale),
-    number_field({"sample_rate", "--sample-rate", "Sampling rate (Hz), for a recording without a clock", Of::Reading},
-                 "_Hz", Dimension::Frequency, Bound::AboveZero, set_number_of<&ReadOptions::sample_rate_Hz>),
-    text_field({"sheet", "--sheet", "Sheet of a workbook, file of a zip archive: name or 1-based number", Of::Reading},
-               set_text_of<&ReadOptions::sheet>),
-    text_field(
-        {"variable", "--variable", "Variable of a .mat file, dataset or group of HDF5, group of TDMS", Of::Reading},
-        set_text_of<&ReadOptions::variable>),
-    text_field({"step", "--step", "Step of a file that holds several (slipfit info lists them)", Of::Reading},
+        {"sheet", "--sheet", "Sheet of a workbook or file in a zip archive: name or 1-based number", Of::Reading},
+        set_text_of<&ReadOptions::sheet>),
+    text_field({"variable", "--variable",
+                "Variable of a .mat file, dataset or group of an HDF5 file, group of a TDMS file", Of::Reading},
+               set_text_of<&ReadOptions::variable>),
+    text_field({"step", "--step", "Step of a file with several steps (slipfit info lists them)", Of::Reading},
                set_step),
-    text_field({"rows", "--rows", "A:B, rows of numbers, counted from 1", Of::Reading}, set_rows),
+    text_field({"rows", "--rows", "A:B, range of rows of numbers, counted from 1", Of::Reading}, set_rows),
     text_field(
-        {"where", "--where", "COLUMN=VALUE: rows whose cell in this column (name or number) says this", Of::Reading},
+        {"where", "--where", "COLUMN=VALUE: only rows with this value in this column (name or number)", Of::Reading},
         set_where),
-    number_field({"window", "--window", "T0:T1, seconds on the recording's own clock", Of::Reading}, "_s",
+    number_field({"window", "--window", "T0:T1, part of the recording, in seconds of its own clock", Of::Reading}, "_s",
                  Dimension::Time, Bound::None, nullptr),
     text_field(
         {"strokes", "--strokes{both}",
-         "Reciprocating test: each stroke is a recording; --strokes=positive, =negative for one direction", Of::Pieces},
+         "Reciprocating test: each stroke becomes a recording; --strokes=positive or =negative selects one direction",
+         Of::Pieces},
         set_strokes),
-    text_field(
-        {"segments", "--segments{yes}", "Each stretch of one speed is a recording: a sweep in one file", Of::Pieces},
-        set_segments),
+    text_field({"segments", "--segments{yes}",
+                "Each section of constant speed becomes a recording: a sweep in one file", Of::Pieces},
+               set_segments),
 });
 
 }  // namespace

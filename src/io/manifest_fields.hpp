@@ -12,7 +12,8 @@
 
 namespace slipfit::reading {
 
-/// What can be said about a recording: the one table of manifests, the command line and programs that say it as text.
+/// A property of a recording that can be stated: one table for manifests, the command line and programs that state it
+/// as text.
 struct ManifestField {
   enum class Bound { AboveZero, NotNegative, None };
   enum class Need { Nothing, Column, Value };  ///< of a manifest
@@ -35,7 +36,7 @@ std::span<const ManifestField> manifest_fields();
 /// The text with the manifest's columns in place of the options of the command line that say the same.
 std::string with_columns_for_options(std::string text);
 
-/// A column that is read: where it stands, what it is called, and what turns its numbers into SI.
+/// A column that is read: its position, its name, and its conversion to SI.
 struct ManifestColumn {
   const ManifestField* field = nullptr;
   std::size_t index = 0;
@@ -50,8 +51,8 @@ struct ManifestColumns {
   std::size_t count = 0;  ///< of all columns
 };
 
-/// From the names row, in the order in which their cells are to be read. `place` ("manifest.csv:1") begins each
-/// message. Errors: missing_column, duplicate_column, unknown_unit.
+/// Finds the columns in the header line, in the order in which their cells have to be read. `place` ("manifest.csv:1")
+/// starts each message. Errors: missing_column, duplicate_column, unknown_unit.
 Result<ManifestColumns> find_manifest_columns(const std::vector<std::string>& names, const std::string& place);
 
 /// The entry with what a cell says about it. Errors: missing_value, bad_id, bad_number, out_of_range, bad_window,

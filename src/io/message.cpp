@@ -59,12 +59,12 @@ std::optional<Error> refusal(const char* code, const std::string& cell, const ch
 }
 
 Error duplicate_id(const std::string& file, const ManifestEntry& entry, std::size_t first_line) {
-  return {"duplicate_id", fmt::format("{}:{}: column 'id': '{}' stands in line {} too, expected another id", file,
+  return {"duplicate_id", fmt::format("{}:{}: column 'id': '{}' is also in line {}, expected a different id", file,
                                       entry.line, entry.id, first_line)};
 }
 
 Error empty_manifest(const std::string& file) {
-  return {"empty_manifest", file + ": holds no recordings; expected a line for each"};
+  return {"empty_manifest", file + ": contains no recordings; expected a line for each"};
 }
 
 }  // namespace slipfit::reading

@@ -27,16 +27,16 @@ std::string printable(std::string_view text);
 /// 0-based, of a 1-based number as text; empty where the text is none, or one beyond `count`.
 std::optional<std::size_t> place_in_list(std::string_view text, std::size_t count);
 
-/// As messages and reports show it; "-" is standard input.
+/// Returns the name of a file as messages and reports show it; "-" is standard input.
 std::string name_of_file(const std::filesystem::path& file);
 
 /// "1 row", "12 rows".
 std::string counted(std::size_t count, std::string_view noun);
 
-/// Of a cell of a manifest: "bad value 'x', expected a number".
+/// Returns the error of a cell of a manifest: "bad value 'x', expected a number".
 std::optional<Error> refusal(const char* code, const std::string& cell, const char* expected);
 
-/// Errors about a manifest; `file` is its name as messages show it.
+/// Returns an error about a manifest; messages show `file`.
 Error duplicate_id(const std::string& file, const ManifestEntry& entry, std::size_t first_line);
 Error empty_manifest(const std::string& file);
 

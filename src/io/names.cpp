@@ -49,8 +49,8 @@ bool has(const std::vector<std::string>& words, std::string_view list) {
   return std::ranges::any_of(words, [list](const std::string& word) { return is_in(list, word); });
 }
 
-/// Whether a text stands for a unit in brackets behind a name or behind a slash, known or not: "Force (daN)", "F/raw".
-/// "Force (left)" and "Ft/Fn" say something else, and so do more than two words.
+/// Returns true if a text in brackets after a name or after a slash is a unit, known or not: "Force (daN)", "F/raw".
+/// "Force (left)" and "Ft/Fn" are not, nor are more than two words.
 bool is_in_place_of_unit(std::string_view text) {
   const UnitClass known = classify_unit(text);
   if (known != UnitClass::NotAUnit) return known != UnitClass::None;

@@ -5,7 +5,7 @@
 
 namespace slipfit::reading {
 
-/// What a column holds as far as its name and unit tell.
+/// The contents of a column according to its name and unit.
 enum class Role {
   Unknown,
   Time,
@@ -19,7 +19,7 @@ enum class Role {
   Other
 };
 
-/// What a unit measures, as far as columns are told apart by it.
+/// The quantity that a unit measures, as far as columns are distinguished by it.
 enum class UnitClass { None, NotAUnit, Time, Length, Force, Mass, Speed, Rotation, One, Torque, Other };
 
 struct ColumnName {
@@ -30,12 +30,12 @@ struct ColumnName {
   int rank = 0;  ///< how strongly the name says so: 4 "Ft", 3 "Fx", 2 "force", 1 "load" or only the unit
 };
 
-/// Whether a word of the name means a load ("Load", "Last"): beside a friction force that is the normal force.
+/// Returns true if a word of the name means a load ("Load", "Last"): next to a friction force this is the normal force.
 bool is_load(const ColumnName& name);
 
 UnitClass classify_unit(std::string_view unit);
 
-/// From the cell of the names row and that of the units row (either may be empty).
+/// Reads the name of a column from the cells of the name row and the unit row (either may be empty).
 ColumnName read_name(std::string_view name_cell, std::string_view unit_cell);
 
 }  // namespace slipfit::reading

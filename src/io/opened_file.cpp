@@ -28,17 +28,15 @@ void check_layout(const std::vector<std::string_view>& lines, const Layout& layo
   const auto shown = [&lines](std::size_t line) { return printable(lines[line - 1].substr(0, kMostShown)); };
   if (is_comma_twice(lines, layout)) {
     throw ThrownError(
-        {"comma_twice",
-         fmt::format("{}:{}: the comma parts the columns and is the decimal sign, too ('{}'), so that columns "
-                     "cannot be told from decimals; export with semicolons or tabs between the columns, or "
-                     "with decimal points",
-                     file, layout.first_data_line, shown(layout.first_data_line))});
+        {"comma_twice", fmt::format("{}:{}: the comma is both the column separator and the decimal sign ('{}'); export "
+                                    "with semicolons or tabs between the columns, or with decimal points",
+                                    file, layout.first_data_line, shown(layout.first_data_line))});
   }
   const std::vector<std::size_t>& unread = layout.unread_rows;
   if (unread.size() <= kMostUnreadRows) return;
   throw ThrownError({"rows_before_data",
                      fmt::format("{}:{}: {} lines before line {}, where the rows of numbers begin, look like rows but "
-                                 "hold text in a column of numbers ('{}'); correct or delete them",
+                                 "contain text in a column of numbers ('{}'); correct or delete them",
                                  file, unread.front(), unread.size(), layout.first_data_line, shown(unread.front()))});
 }
 
@@ -52,20 +50,18 @@ Layout layout_of_head(TextSource& source, const std::string& file) {
       return *std::move(layout);
     }
     if (!source.head_is_everything() && last_length > kLongestLine) {
-      throw ThrownError(
-          {"line_too_long", fmt::format("{}:{}: the line is longer than {} MB, which is too many columns; a "
-                                        "recording is text with a row a line, of a time and a force",
-                                        file, lines.size() + 1, kLongestLine >> 20)});
+      throw ThrownError({"line_too_long", fmt::format("{}:{}: the line is longer than {} MB, too many columns for a "
+                                                      "recording; expected text with a time and a force in each line",
+                                                      file, lines.size() + 1, kLongestLine >> 20)});
     }
     if (!source.head_is_everything()) continue;
     const bool is_blank = std::ranges::all_of(lines, [](std::string_view line) { return trim(line).empty(); });
     if (is_blank)
-      throw ThrownError({"empty_file", file + ": the file holds only blank lines; export the recording again"});
+      throw ThrownError({"empty_file", file + ": the file contains only blank lines; export the recording again"});
     break;
   }
-  throw ThrownError(
-      {"no_numeric_column", file + ": no rows of numbers found; is this the right file? A recording is text with "
-                                   "a column of times and one of forces"});
+  throw ThrownError({"no_numeric_column", file + ": no rows of numbers found; is this the right file? A recording is "
+                                                 "text with a column of times and a column of forces"});
 }
 
 constexpr std::size_t kMostReserved = std::size_t{1} << 27;
@@ -76,7 +72,7 @@ std::size_t expected_rows(const OpenedFile& file, const ReadOptions& options) {
                                                           std::max(1.0, file.layout.mean_line_length)));
 }
 
-/// A column of friction coefficients beside one of normal forces: their products are the force.
+/// A column of friction coefficients with one of normal forces: their products are the force.
 void make_forces(Rows& rows, Choice& choice, const Layout& layout) {
   if (choice.force.quantity != ForceQuantity::FrictionCoefficient || !choice.normal_force) return;
   std::vector<std::size_t> known;
@@ -131,14 +127,14 @@ void check_options(const ReadOptions& options, const std::string& file) {
                                                  file, window->begin_s, window->end_s)});
   }
   if (const auto& rows = options.rows; rows && (rows->first < 1 || rows->first >= rows->last)) {
-    throw ThrownError({"bad_rows", fmt::format("{}: the rows {}:{} are none; give A:B with 1 <= A < B", file,
+    throw ThrownError({"bad_rows", fmt::format("{}: {}:{} is not a range of rows; give A:B with 1 <= A < B", file,
                                                rows->first, rows->last)});
   }
   if (const auto& rate = options.sample_rate_Hz; rate && !(*rate > 0.0 && std::isfinite(*rate))) {
     throw ThrownError(
-        {"bad_sample_rate", fmt::format("{}: the sampling rate {} is not a positive number of samples a second; "
-                                        "correct --sample-rate",
-                                        file, *rate)});
+        {"bad_sample_rate",
+         fmt::format("{}: the sampling rate {} is not a positive number of samples per second; correct --sample-rate",
+                     file, *rate)});
   }
 }
 
@@ -146,8 +142,9 @@ Error error_of_reading(const std::string& file) {
   try {
     throw;
   } catch (const ::io::error::line_length_limit_exceeded& e) {
-    return {"line_too_long", fmt::format("{}:{}: the line is longer than 16 MB; is this a text file with a row a line?",
-                                         file, e.file_line)};
+    return {"line_too_long",
+            fmt::format("{}:{}: the line is longer than 16 MB; is this a text file with one row per line?", file,
+                        e.file_line)};
   } catch (const ThrownError& e) {
     return e.error();
   } catch (const std::bad_alloc&) {

@@ -23,9 +23,9 @@ struct OpenedFile {
   Layout layout;
 };
 
-/// Errors: those of TextSource, no_numeric_column, line_too_long, empty_file.
+/// Opens a file and finds its layout. Errors: those of TextSource, no_numeric_column, line_too_long, empty_file.
 OpenedFile open_file(const std::filesystem::path& path, const ReadOptions& options);
-/// The same of a file that open_plain opened.
+/// Finds the layout of a file that open_plain opened.
 OpenedFile open_file(TextStream opened, const std::string& name, const ReadOptions& options);
 
 /// A file whose rows are read, and what was asked for.
@@ -41,7 +41,7 @@ struct LoadedFile {
 /// Reads the rows. With a window of the options that comes before the steps, what lies outside is not even kept.
 LoadedFile load_rows(OpenedFile file, Choice choice, const ReadOptions& options);
 
-/// The same of the columns that the options and names tell, of a file that open_plain opened. Errors: those of
+/// Does the same for the columns that options and names select, for a file that open_plain opened. Errors: those of
 /// open_file and choose_columns.
 LoadedFile load_file(TextStream opened, const std::string& name, double speed_m_per_s, const ReadOptions& options);
 
@@ -55,7 +55,7 @@ void check_options(const ReadOptions& options, const std::string& file);
 /// The exception in flight as an error. Errors: line_too_long, out_of_memory, not_readable.
 Error error_of_reading(const std::string& file);
 
-/// What `read()` returns; what it throws (ThrownError), or the disk, the memory or a line without end, as an error.
+/// Returns the value of `read()`; an exception (ThrownError), the disk, the memory or an endless line becomes an error.
 template <class Read>
 auto with_errors_of_reading(const std::string& file, const Read& read) -> Result<decltype(read())> {
   try {

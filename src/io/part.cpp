@@ -19,9 +19,9 @@ std::string rows_of(const Rows& rows, const Step& step) {
   return fmt::format("rows {} to {}", rows.place_of(step.begin).row, rows.place_of(step.end - 1).row);
 }
 
-/// Which steps there are, in words.
+/// Returns the list of steps as text.
 std::string several(std::size_t steps) {
-  return fmt::format("the file holds {} one after another", counted(steps, "step"));
+  return fmt::format("the file contains {} one after another", counted(steps, "step"));
 }
 
 Part take_step(Rows rows, const ReadOptions& options, const std::string& file) {
@@ -33,14 +33,14 @@ Part take_step(Rows rows, const ReadOptions& options, const std::string& file) {
     part.assumed.push_back(
         fmt::format("Only step {} was read ({}; {}).", taken.number, rows_of(rows, taken), several(steps.size())));
   } else if (steps.size() > 1 && are_one_recording(rows, steps)) {
-    part.assumed.push_back(fmt::format("All {} of the file were read as one recording; --step N takes one.",
+    part.assumed.push_back(fmt::format("All {} of the file were read as one recording; --step N selects one.",
                                        counted(steps.size(), "step")));
   } else if (steps.size() > 1) {
     taken = main_step(steps);
     part.warnings.push_back(
-        {"several_steps", fmt::format("{}, and only step {} was analysed ({}); choose another with --step N "
-                                      "(slipfit info lists them)",
-                                      several(steps.size()), taken.number, rows_of(rows, taken))});
+        {"several_steps",
+         fmt::format("{}; only step {} was analysed ({}); --step N selects another (slipfit info lists them)",
+                     several(steps.size()), taken.number, rows_of(rows, taken))});
     part.assumed.push_back(fmt::format("Step {} is the recording ({}).", taken.number, rows_of(rows, taken)));
   }
   rows.cut(taken.begin, taken.end);
@@ -104,11 +104,12 @@ std::string clock_range(const Rows& rows) {
                     : std::string("no row has a time");
 }
 
-/// Where the sampling rate is the better clock; else empty.
+/// Returns advice to state the sampling rate if it is the better clock, otherwise nothing.
 std::string advice_on_clock(const Part& part) {
   if (rows_per_stamp(part) < kCoarse) return {};
-  return fmt::format("; the clock is coarser than the sampling: if the rows are evenly spaced, {} states a better one",
-                     advised_rate(part.rows.time_s));
+  return fmt::format(
+      "; the clock is coarser than the sampling: if the rows are evenly spaced, state the sampling rate with {}",
+      advised_rate(part.rows.time_s));
 }
 
 Warnings warn_of_rows(const Part& part) {
@@ -135,8 +136,8 @@ void check_unread(const Rows& rows, const LoadedFile& file) {
   const bool is_time = file.choice.time && rows.unread->column == file.choice.time->column;
   throw ThrownError(
       {"unread_numbers",
-       fmt::format("{}:{}: {} such as '{}' in {} cannot be read as numbers, more than a tenth of the rows; write them "
-                   "with digits, one decimal sign and a minus in front, or choose another column with {}",
+       fmt::format("{}:{}: {} such as '{}' in {} cannot be read as numbers in more than a tenth of the rows; write "
+                   "digits, one decimal sign and a leading minus, or choose another column with {}",
                    file.name, rows.unread->first_line, counted(rows.unread->count, "cell"),
                    printable(rows.unread->example), describe(file.layout, rows.unread->column),
                    is_time ? "--time-column" : "--force-column")});
@@ -148,7 +149,7 @@ void check_extent(const Rows& rows, const LoadedFile& file) {
   const std::string held = counted(rows.time_s.size(), "sample");
   if (file.options.window && rows.clock) {
     throw ThrownError(
-        {"window_empty", fmt::format("{}: the window {}:{} s holds {}; {}", file.name, file.options.window->begin_s,
+        {"window_empty", fmt::format("{}: the window {}:{} s contains {}; {}", file.name, file.options.window->begin_s,
                                      file.options.window->end_s, held, clock_range(rows))});
   }
   const auto& where = file.choice.where;
@@ -156,22 +157,20 @@ void check_extent(const Rows& rows, const LoadedFile& file) {
   const std::string rows_asked =
       file.options.rows ? fmt::format("rows {}:{}", file.options.rows->first, file.options.rows->last) : "all rows";
   const std::string of_where =
-      where ? fmt::format(" where {} says '{}'", describe(file.layout, where->column), printable(where->text)) : "";
+      where ? fmt::format(" with '{1}' in {0}", describe(file.layout, where->column), printable(where->text)) : "";
   throw ThrownError(
-      {"part_empty", fmt::format("{}: {}{} hold {}; the file has {}: choose others with {}", file.name, rows_asked,
+      {"part_empty", fmt::format("{}: {}{} contain {}; the file has {}: choose others with {}", file.name, rows_asked,
                                  of_where, held, counted(rows.count, "row"), where ? "--where" : "--rows")});
 }
 
 /// Error: time_too_coarse.
 void check_stamps(const Part& part, const LoadedFile& file) {
   if (!file.choice.time || rows_per_stamp(part) < kTooCoarse) return;
-  throw ThrownError(
-      {"time_too_coarse",
-       fmt::format(
-           "{}:{}: {} rows share each time in {} on average, so that the clock is coarser than the sampling; if "
-           "the rows follow each other evenly, give the sampling rate ({})",
-           file.name, file.layout.first_data_line, std::lround(rows_per_stamp(part)),
-           describe(file.layout, file.choice.time->column), advised_rate(part.rows.time_s))});
+  throw ThrownError({"time_too_coarse",
+                     fmt::format("{}:{}: {} rows share each time in {} on average, so the clock is coarser than the "
+                                 "sampling; if the rows are evenly spaced, give the sampling rate ({})",
+                                 file.name, file.layout.first_data_line, std::lround(rows_per_stamp(part)),
+                                 describe(file.layout, file.choice.time->column), advised_rate(part.rows.time_s))});
 }
 
 /// About a part of the file, in words.
@@ -182,7 +181,7 @@ std::vector<std::string> part_sentences(const Part& part, const LoadedFile& file
                                     file.options.rows->last, part.rows.count));
   }
   if (file.choice.where) {
-    sentences.push_back(fmt::format("Only rows where {} says '{}' were read.",
+    sentences.push_back(fmt::format("Only rows with '{1}' in {0} were read.",
                                     describe(file.layout, file.choice.where->column),
                                     printable(file.choice.where->text)));
   }
@@ -232,9 +231,8 @@ void check_part(const Part& part, const LoadedFile& file) {
   if (rows.time_s.empty()) {
     throw ThrownError(
         {"no_number_in_column",
-         fmt::format("{}:{}: {} holds a number with a time in none of {}; choose another with "
-                     "--force-column",
-                     file.name, file.layout.first_data_line, force, counted(rows.without_number, "row"))});
+         fmt::format("{}:{}: {} has no number with a time in any of {}; choose another with --force-column", file.name,
+                     file.layout.first_data_line, force, counted(rows.without_number, "row"))});
   }
   if (rows.time_s.size() < 2) {
     throw ThrownError({"too_few_samples", fmt::format("{}:{}: only one row of numbers; a recording needs at least 2",

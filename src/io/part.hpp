@@ -28,8 +28,8 @@ Part take_part(Rows rows, const ReadOptions& options, const std::string& file);
 /// The stretches of one speed each, in every step of the file.
 std::vector<Part> take_segments(const Rows& rows);
 
-/// Errors: unread_numbers, time_runs_backwards, window_empty, part_empty, no_number_in_column, too_few_samples,
-/// time_constant.
+/// Checks the part. Errors: unread_numbers, time_runs_backwards, window_empty, part_empty, no_number_in_column,
+/// too_few_samples, time_constant.
 void check_part(const Part& part, const LoadedFile& file);
 
 /// Counts, assumptions and warnings.

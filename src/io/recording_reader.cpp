@@ -24,9 +24,10 @@ std::vector<NamedRecording> build_segments(const Rows& rows, const LoadedFile& f
     if (recordings.size() == kMostPieces) break;
   }
   if (recordings.size() > 1) return recordings;
-  throw ThrownError({"no_segments", file.name +
-                                        ": there are no several stretches of one speed each, neither by a column of "
-                                        "speeds nor by steps; leave out --segments"});
+  throw ThrownError(
+      {"no_segments",
+       file.name +
+           ": neither a column of speeds nor steps give several sections of constant speed; leave out --segments"});
 }
 
 std::vector<NamedRecording> take_apart(LoadedFile file, const Conditions& conditions) {

@@ -17,7 +17,7 @@ namespace {
 constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
 constexpr double kDay_s = 86400.0;
 
-/// What may be read from a line. `Where` is compared, not kept.
+/// The values that may be read from a line. `Where` is compared, not kept.
 enum Slot : std::size_t { kTime, kForce, kWay, kNormalForce, kVelocity, kStepNumber, kWhere, kSlots };
 
 /// The numbers of a line; NaN where there is none. There is one for all lines: a copy of what was just written stalls.

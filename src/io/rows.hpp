@@ -14,7 +14,7 @@
 
 namespace slipfit::reading {
 
-/// What to read from each line.
+/// The values to read from each line.
 struct RowPlan {
   const Layout& layout;
   const Choice& choice;
@@ -24,7 +24,7 @@ struct RowPlan {
   std::size_t expected_rows = 0;
 };
 
-/// Where a sample stands in the file; holds for those behind it, too, up to the next place.
+/// The position of a sample in the file; it is valid for later samples up to the next position.
 struct RowPlace {
   std::size_t sample = 0;  ///< index into Rows::time_s
   std::size_t row = 1;     ///< 1-based, of the rows of numbers
@@ -40,7 +40,7 @@ struct Rows {
   std::vector<double> normal_force_N;
   std::vector<double> speed_m_per_s;
   std::vector<double> step;
-  std::vector<std::size_t> blocks;  ///< samples before which the line of names stands again
+  std::vector<std::size_t> blocks;  ///< samples before which the header line is repeated
   std::vector<RowPlace> places;
   std::size_t count = 0;  ///< rows in the file
   std::size_t without_number = 0;

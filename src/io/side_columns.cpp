@@ -48,7 +48,7 @@ std::optional<Channel> choose_displacement(const Layout& layout, const Choice& c
   return std::nullopt;
 }
 
-/// As far as names tell; empty where none or several may be it.
+/// Returns the column of the normal force by its name, or nothing if none or several are possible.
 std::optional<std::size_t> find_normal_force(const Layout& layout, std::optional<std::size_t> force) {
   return only_one(best_columns(layout, [&](const Column& column, std::size_t c) {
     if (!column.is_numeric() || (force && *force == c)) return 0;
@@ -85,7 +85,7 @@ std::optional<Channel> choose_speed(const Layout& layout, const ReadOptions& opt
   }
   const std::size_t column = find_column(layout, *options.speed_column, "--speed-column", file);
   auto channel = speed_channel(layout, column, options.radius_m);
-  if (!channel) throw side_unit_error(layout, column, file, "a unit of speed, nor of rotation with a --radius");
+  if (!channel) throw side_unit_error(layout, column, file, "a unit of speed, nor of rotational speed with --radius");
   return channel;
 }
 

@@ -35,8 +35,8 @@ double level_90(std::span<const double> force) {
   return quantile_of(std::move(sizes), 0.9);
 }
 
-/// From the first to behind the last sample that lies farther than the threshold from the middle, on either side in
-/// turn.
+/// Returns the parts in which the force is alternately on either side of the middle, each from the first to the last
+/// sample beyond the threshold.
 std::vector<Stroke> sides_of(std::span<const double> force, double middle, double threshold) {
   std::vector<Stroke> sides;
   for (std::size_t i = 0; i < force.size(); ++i) {
@@ -81,7 +81,7 @@ Stroke without_ends(Stroke stroke, std::span<const double> force) {
   return {kept, stroke.is_positive};
 }
 
-/// Where the values turn by more than the hysteresis.
+/// Returns the indices at which the values turn by more than the hysteresis.
 std::vector<std::size_t> turns_of(std::span<const double> values, double hysteresis) {
   std::vector<std::size_t> turns;
   std::size_t extreme = 0;
@@ -168,7 +168,7 @@ struct Moments {
   }
 };
 
-/// Of the changes over `width` samples, in parts of the trace.
+/// The number of parts of the trace in which changes over `width` samples are compared.
 constexpr std::size_t kParts = 16;
 std::array<Moments, kParts> moments_of_changes(std::span<const double> force, std::size_t width) {
   std::array<Moments, kParts> parts{};

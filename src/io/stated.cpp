@@ -47,7 +47,7 @@ std::optional<Estimate> steady_speed_m_per_s(const Rows& rows) {
   return Estimate{speed_m_per_s, se_m_per_s, std::nullopt, {}};
 }
 
-/// By how much speeds are off where their unit is mistaken: mm and cm, min and s, m and mm, m/s and mm/min, mm/s and
+/// Factors by which speeds are wrong if the unit is confused: mm and cm, min and s, m and mm, m/s and mm/min, mm/s and
 /// m/min.
 constexpr std::array kUnitFactors{10.0, 60.0, 1000.0, 6e4, 1e3 / 60.0};
 
@@ -69,23 +69,21 @@ std::optional<Error> mistaken_speed(const Conditions& stated, double moved_m_per
   const double ratio = std::max(stated_m_per_s / moved_m_per_s, moved_m_per_s / stated_m_per_s);
   const auto is_near = [&](double factor) { return std::abs(ratio / factor - 1.0) < kTolerance; };
   if (std::none_of(kUnitFactors.begin(), kUnitFactors.end(), is_near)) return std::nullopt;
-  return Error{
-      "speed_contradicted",
-      fmt::format("{}: the speed is {:.6g} m/s, but {} moves at {:.6g} m/s, which differs by the factor {:.4g} "
-                  "of another unit; give --speed {}, or correct the unit in the name of that column",
-                  file, stated_m_per_s, column, moved_m_per_s, ratio, speed_to_state(stated, moved_m_per_s))};
+  return Error{"speed_contradicted",
+               fmt::format("{}: the speed is {:.6g} m/s, but {} moves at {:.6g} m/s; the factor {:.4g} suggests "
+                           "another unit; give --speed {}, or correct the unit in the name of that column",
+                           file, stated_m_per_s, column, moved_m_per_s, ratio, speed_to_state(stated, moved_m_per_s))};
 }
 
 ThrownError no_speed(const Choice& choice, const Layout& layout, const std::string& file) {
   if (!choice.speed) {
     return ThrownError(
         {"no_speed",
-         file + ": --speed is missing: give the driving speed, for example --speed 10mm/s (no column tells it)"});
+         file + ": --speed is missing: give the driving speed, for example --speed 10mm/s (no column contains it)"});
   }
-  return ThrownError(
-      {"speed_varies", fmt::format("{}: {} holds no one speed; take a part of it with --step N, --rows A:B or "
-                                   "--window T0:T1, or give the speed with --speed",
-                                   file, describe(layout, choice.speed->column))});
+  return ThrownError({"speed_varies", fmt::format("{}: {} has no constant speed; read a part of it with --step N, "
+                                                  "--rows A:B or --window T0:T1, or give the speed with --speed",
+                                                  file, describe(layout, choice.speed->column))});
 }
 
 void state_normal_force(StatedConditions& stated, const Rows& rows, const Choice& choice, const Layout& layout) {
@@ -94,9 +92,10 @@ void state_normal_force(StatedConditions& stated, const Rows& rows, const Choice
   const std::string name = describe(layout, choice.normal_force->column);
   if (const auto& given = stated.conditions.normal_force_N) {
     if (!differ(*given, *level, kTolerance)) return;
-    stated.warnings.push_back({"normal_force_differs", fmt::format("the normal force is given as {:.6g} N, but {} "
-                                                                   "holds {:.6g} N; the given one is used",
-                                                                   *given, name, level->value)});
+    stated.warnings.push_back(
+        {"normal_force_differs",
+         fmt::format("the stated normal force is {:.6g} N, but {} contains {:.6g} N; the stated one is used", *given,
+                     name, level->value)});
     return;
   }
   stated.conditions.normal_force_N = level->value;
@@ -104,8 +103,8 @@ void state_normal_force(StatedConditions& stated, const Rows& rows, const Choice
                                        level->standard_deviation));
   if (level->standard_deviation > kMostLoadScatter * level->value || !level->is_steady) {
     stated.warnings.push_back(
-        {"normal_force_varies", fmt::format("{} varies by more than a tenth of its median of {:.6g} N, which stands "
-                                            "for it everywhere; take a part with a steady load",
+        {"normal_force_varies", fmt::format("{} varies by more than a tenth of its median of {:.6g} N, which is used "
+                                            "throughout; read a part with a constant load",
                                             name, level->value)});
   }
 }
@@ -117,7 +116,7 @@ std::optional<Warning> compare_speed(double stated_m_per_s, double moved_m_per_s
   if (!std::isfinite(off_m_per_s) || off_m_per_s <= kTolerance * stated_m_per_s) return std::nullopt;
   return Warning{
       "speed_differs_from_displacement",
-      fmt::format("the speed is given as {:.6g} m/s, but {} moves at {:.6g} m/s", stated_m_per_s, what, moved_m_per_s)};
+      fmt::format("the stated speed is {:.6g} m/s, but {} moves at {:.6g} m/s", stated_m_per_s, what, moved_m_per_s)};
 }
 
 StatedConditions state_conditions(const Rows& rows, const Choice& choice, const Layout& layout,
@@ -133,8 +132,8 @@ StatedConditions state_conditions(const Rows& rows, const Choice& choice, const 
                                          measured->standard_deviation));
   } else if (measured && differ(speed_m_per_s, *measured, kSpeedTolerance)) {
     stated.warnings.push_back(
-        {"speed_differs", fmt::format("the speed is given as {:.6g} m/s, but {} holds {:.6g} m/s; the given one is "
-                                      "used, and stiffness and spacing follow it",
+        {"speed_differs", fmt::format("the stated speed is {:.6g} m/s, but {} contains {:.6g} m/s; the stated one is "
+                                      "used, and stiffness and spacing depend on it",
                                       speed_m_per_s, describe(layout, choice.speed->column), measured->value)});
   }
   if (choice.displacement && !rows.displacement_m.empty()) {

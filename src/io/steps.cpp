@@ -20,8 +20,8 @@ constexpr double kLoadStep = 0.2;
 constexpr double kAboutAsLong = 0.9;
 constexpr std::size_t kMostNamed = 8;
 
-/// Whether a run of rows begins here that lies before the rows above it: the clock has begun again. A few stamps that
-/// fall back and return are damage, and so is a clock that falls back by less than half.
+/// Returns true if a run of rows starts here with times before the rows above it: the clock has started again. A few
+/// time stamps that go back and return are damage, and so is a clock that goes back by less than half.
 bool clock_restarts(const std::vector<double>& time_s, std::size_t at, double begin_s, double latest_s) {
   if (at + kFewestRows > time_s.size() || time_s[at] > 0.5 * (begin_s + latest_s)) return false;
   for (std::size_t i = at + 1; i < at + kFewestRows; ++i) {
@@ -54,7 +54,7 @@ std::vector<std::size_t> changes_of(const std::vector<double>& step) {
   return counts_something_else ? std::vector<std::size_t>{} : changes;
 }
 
-/// Both, but for those of the second that stand beside one of the first.
+/// Returns both, except those of the second that are next to one of the first.
 std::vector<std::size_t> joined(std::vector<std::size_t> first, const std::vector<std::size_t>& second) {
   const std::vector<std::size_t> given = first;
   for (const std::size_t at : second) {
@@ -155,9 +155,10 @@ Step step_with_number(std::span<const Step> steps, std::size_t number, const std
   }
   if (steps.size() > kMostNamed) known += ", ...";
   throw ThrownError(
-      {"unknown_step", fmt::format("{}: there is no step {}; the file holds {} ({}); choose one of them with "
-                                   "--step, or leave it out",
-                                   file, number, counted(steps.size(), "step"), known)});
+      {"unknown_step",
+       fmt::format(
+           "{}: step {} does not exist; the file contains {} ({}); choose one of them with --step, or leave it out",
+           file, number, counted(steps.size(), "step"), known)});
 }
 
 }  // namespace slipfit::reading

@@ -37,7 +37,7 @@ const char* TextLines::next() {
   }
 }
 
-/// Of the line behind the latest, or of what there is of it.
+/// Checks the length of the line after the latest, or of its available part.
 void TextLines::check_length(std::size_t length) const {
   if (length < kMostInLine) return;
   ::io::error::line_length_limit_exceeded error;

@@ -17,7 +17,7 @@ class TextLines {
   /// The next line with a NUL in place of its LF or CRLF, until the next call; null behind the last one. Throws what
   /// the source throws, and io::error::line_length_limit_exceeded beyond 16 MB.
   const char* next();
-  /// Of the latest line, from 1.
+  /// Returns the number of the latest line, from 1.
   [[nodiscard]] unsigned number() const { return number_; }
 
  private:

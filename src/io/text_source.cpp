@@ -12,7 +12,8 @@ namespace {
 
 constexpr std::size_t kProbe = std::size_t{64} * 1024;
 constexpr std::size_t kPiece = std::size_t{256} * 1024;
-constexpr char kNotText = '\x1A';  // stands for NUL: no number holds it, so the cell is counted as one without a number
+constexpr char kNotText =
+    '\x1A';  // replaces NUL: no number contains it, so the cell is counted as one without a number
 
 bool holds_nul(std::string_view bytes) {
   return bytes.find('\0') != std::string_view::npos;
@@ -84,7 +85,7 @@ std::unique_ptr<TextSource> TextSource::over(TextStream stream, const std::strin
   return source;
 }
 
-/// By the byte order mark, which is dropped, or by a NUL beside every ASCII character.
+/// Detects the encoding by the byte order mark, which is removed, or by a NUL next to every ASCII character.
 void TextSource::detect_encoding() {
   const std::string_view start(raw_);
   std::array<std::size_t, 2> nul{};  // at even and at odd places

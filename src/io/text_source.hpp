@@ -19,24 +19,25 @@ namespace slipfit::reading {
 /// the disk fails; LineReader and TextLines hand that on.
 class TextSource final : public ::io::ByteSourceBase {
  public:
-  /// Errors: file_not_found, is_directory, not_readable, empty_file, binary_file.
+  /// Opens a text. Errors: file_not_found, is_directory, not_readable, empty_file, binary_file.
   static std::unique_ptr<TextSource> open(const std::filesystem::path& file);
-  /// Of a file that is open; `name`: as messages show it. Errors: empty_file, binary_file.
+  /// Reads the text of an open file; messages show `name`. Errors: empty_file, binary_file.
   static std::unique_ptr<TextSource> over(TextStream stream, const std::string& name);
 
   /// The first `size` bytes of the text (fewer when there are no more), without consuming them.
   std::string_view head(std::size_t size);
-  /// Whether the last `head` holds the whole text.
+  /// Returns true if the last `head` contains the whole text.
   [[nodiscard]] bool head_is_everything() const { return ended_; }
-  /// Of the text, not exact; 0 where the file does not say (a pipe).
+  /// Returns the approximate size of the text; 0 if the file does not state it (a pipe).
   [[nodiscard]] std::size_t estimated_size() const { return estimated_size_; }
   /// Sentences about what the text was packed in, and its encoding.
   [[nodiscard]] const std::vector<std::string>& assumed() const { return stream_.assumed; }
-  /// That a choice can name in the file.
+  /// Returns the tables in the file that an option can select.
   [[nodiscard]] const std::vector<std::string>& tables() const { return stream_.tables; }
   [[nodiscard]] TableKind table_kind() const { return stream_.table_kind; }
   [[nodiscard]] const Warnings& warnings() const { return stream_.warnings; }
-  /// Of the file's bytes as they are read; it outlives the source, which a reader of lines takes.
+  /// Returns the digest of the bytes of the file as they are read; it outlives the source, which a reader of lines
+  /// takes.
   [[nodiscard]] std::shared_ptr<const Digester> digester() const { return stream_.digester; }
   [[nodiscard]] bool is_utf16() const { return encoding_ != Encoding::Bytes; }
 

@@ -11,7 +11,7 @@ namespace {
 constexpr std::size_t kLongest = 64;
 constexpr std::size_t kMostShapes = 256;
 
-/// Empty if the cell does not look like a number.
+/// Returns the shape of a cell, or an empty text if it does not look like a number.
 std::string shape_of(std::string_view cell) {
   std::string shape;
   bool has_digit = false;

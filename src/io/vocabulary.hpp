@@ -8,7 +8,7 @@
 namespace slipfit::reading {
 
 constexpr std::string_view kWordsNotUnits = "in In IN Min MIN mil foot feet day days turn turns rev count digit arb";
-/// What stands in brackets behind a name and is no unit: "Force (left)", "Time (UTC)".
+/// Words in brackets after a name that are not units: "Force (left)", "Time (UTC)".
 constexpr std::string_view kRemarks =
     "left right top bottom front rear upper lower links rechts oben unten gauche droite axial radial channel ch kanal "
     "sensor cell transducer measured calculated calc calibrated corrected absolute abs relative rel mean avg average "

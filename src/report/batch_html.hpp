@@ -16,7 +16,7 @@ struct BatchPageQuantity {
   std::string status;  ///< of a parameter: identified, conditional, ...; empty: not fitted
 };
 
-/// What the page of a batch shows of one recording or group.
+/// The row of a recording or group on the page of a batch.
 struct BatchPageRow {
   std::string id;
   std::string status;                           ///< as in the document: stick_slip, ...
@@ -27,8 +27,8 @@ struct BatchPageRow {
   std::string sparkline;                        ///< of `sparkline_of`; empty: none
 };
 
-/// From a document of schema slipfit.fit/1, one line of results.jsonl; without page and sparkline. What the document
-/// does not know is empty. Error: bad_document.
+/// Reads a document of schema slipfit.fit/1, one line of results.jsonl, without page and sparkline. Values that the
+/// document does not contain are empty. Error: bad_document.
 Result<BatchPageRow> batch_page_row(const std::string& document);
 
 /// One row of failures.csv.

@@ -27,7 +27,7 @@ Row with_spread(const char* label, std::optional<double> value, std::optional<do
           "standard deviation " + rounded(shown_spread, shown_spread) + blank_unit};
 }
 
-/// Empty where the level has no significant trend.
+/// Returns the row of the trend, or nothing if the level has no significant trend.
 std::optional<Row> trend_row(const Analysis& analysis, ForceQuantity quantity) {
   if (!analysis.fit || !analysis.fit->level_trend.level_range) return std::nullopt;
   const LevelTrend& trend = analysis.fit->level_trend;
@@ -41,7 +41,7 @@ std::optional<Row> trend_row(const Analysis& analysis, ForceQuantity quantity) {
 
 std::string regime_sentence(Regime regime) {
   if (regime == Regime::StickSlipBistable) {
-    return "regime: stick-slip from rest; steady sliding, once reached, persists too (bistable)";
+    return "regime: stick-slip from rest; steady sliding is stable as well (bistable)";
   }
   std::string words(name_of(regime));
   std::ranges::replace(words, '_', '-');
@@ -57,14 +57,14 @@ std::string whiteness_sentence(double p) {
                      p > kSmallestPrinted ? fmt::format("{:.2g}", p) : "below 1e-6", kLevel);
 }
 
-/// What is wrong with the samples: "4 gaps, the longest 120 ms", ...
+/// Returns the defects of the samples: "4 gaps, the longest 120 ms", ...
 std::vector<std::string> defects_of(const Recording& recording, const Quality& quality) {
   const Provenance& provenance = recording.provenance();
   std::vector<std::string> found;
   const auto add = [&found](std::size_t count, const char* what) {
     if (count > 0) found.push_back(fmt::format("{} {}", count, what));
   };
-  add(quality.clipped_samples, "samples at the end of the sensor's range");
+  add(quality.clipped_samples, "samples at the limit of the sensor's range");
   add(quality.impulses, "isolated impulses, left out");
   add(quality.gaps, "gaps");
   if (quality.gaps > 0) found.back() += ", the longest " + quantity_text(quality.longest_gap_s, "s");
@@ -165,7 +165,7 @@ Block surface_block(const Derived& derived) {
   if (!derived.surface_spacing_m) return block;
   block.add("pattern on the worn surface", *derived.surface_spacing_m, "m");
   block.add("over the spacing by force (V/f)", derived.surface_ratio.value_or(Estimate{}), "");
-  block.add("E_n of the two (within +-1: agree)", derived.surface_En.value_or(Estimate{}), "");
+  block.add("E_n of the two (agreement within +-1)", derived.surface_En.value_or(Estimate{}), "");
   block.sentences.push_back(printable(derived.surface_verdict));
   return block;
 }
@@ -204,9 +204,10 @@ Block coefficients_block(const std::optional<Coefficients>& coefficients) {
   for (const auto& row : kCoefficientSpreads) block.add(row.words, {(*coefficients).*row.value, {}, {}, {}}, "");
   for (const StandardCoefficients& standard : coefficients->standards) {
     Estimate kinetic = standard.kinetic_coefficient;
-    kinetic.note = fmt::format("{} prescribes {}. Here: {}", standard.standard, standard.prescribes,
-                               standard.differs.empty() ? std::string("as prescribed, as far as a recording shows it")
-                                                        : fmt::format("{}", fmt::join(standard.differs, "; ")));
+    kinetic.note =
+        fmt::format("{} prescribes {}. Here: {}", standard.standard, standard.prescribes,
+                    standard.differs.empty() ? std::string("as prescribed, as far as a recording can show it")
+                                             : fmt::format("{}", fmt::join(standard.differs, "; ")));
     block.add("static, as " + standard.standard, standard.static_coefficient, "");
     block.add("kinetic, as " + standard.standard, kinetic, "");
   }
@@ -221,7 +222,7 @@ Block quality_block(const Recording& recording, const Analysis& analysis) {
   block.rows = {{"samples", std::to_string(recording.size())},
                 {"sampling rate", stated_text(1.0 / recording.sample_interval_s(), "Hz")},
                 {"duration", quantity_text(recording.duration_s(), "s")},
-                {"force that the sensor sees", std::string(name_of(conditions.force_view))}};
+                {"force that the sensor measures", std::string(name_of(conditions.force_view))}};
   if (conditions.normal_force_N) block.rows.push_back({"normal force", stated_text(*conditions.normal_force_N, "N")});
   block.rows.push_back({"noise, rms", quantity_text(quality.noise_rms, unit)});
   if (quality.quantisation_step)
@@ -234,7 +235,7 @@ Block quality_block(const Recording& recording, const Analysis& analysis) {
   const TimeSpan& sliding = analysis.sliding;
   if (sliding.end_s - sliding.begin_s < recording.duration_s()) {
     block.sentences.push_back(
-        fmt::format("sliding from {:.6g} to {:.6g} s: all numbers are of this stretch (--window T0:T1 chooses another)",
+        fmt::format("sliding from {:.6g} to {:.6g} s: all numbers refer to this part (--window T0:T1 selects another)",
                     sliding.begin_s, sliding.end_s));
   }
   return block;

@@ -39,16 +39,16 @@ Block coefficients_block(const std::optional<Coefficients>& coefficients);
 Block quality_block(const Recording& recording, const Analysis& analysis);
 /// The models that were compared, what the chosen one leaves over, and what it assumes.
 Block models_block(const FitResult& fit, ForceQuantity quantity);
-/// Of recordings at one speed.
+/// Returns the block of the recordings at one speed.
 Block repeats_block(const std::vector<Repeat>& repeats);
 
-/// Of a worn surface.
+/// Returns the block of a worn surface.
 Block pattern_block(const Profile& profile, const Surface& surface);
 
 /// The numbers of a recording that are neither parameters nor coefficients of friction, in the order of the reports.
 std::vector<Block> number_blocks(const Recording& recording, const Analysis& analysis);
 
-/// With a blank line before its heading; "" for a block without content.
+/// Returns a block as text, with a blank line before its heading; empty for a block without content.
 std::string text_of(const Block& block);
 
 }  // namespace slipfit

@@ -4,7 +4,7 @@
 
 namespace slipfit {
 
-/// Of the sources of this build; empty where they were not checked out by git.
+/// Returns the commit of the sources of this build; empty if they were not checked out by git.
 std::string commit_of_program();
 
 }  // namespace slipfit

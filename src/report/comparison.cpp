@@ -70,7 +70,7 @@ std::string note_of(const QuantityComparison& quantity) {
   return note;
 }
 
-/// "10 mm/s", "10 to 50 mm/s"; empty where no recording tells it.
+/// "10 mm/s", "10 to 50 mm/s"; empty if no recording states it.
 std::string range_text(const ComparisonSide& side, ComparedCondition condition, const std::string& SI_unit) {
   const std::optional<Interval> range = range_of(side, condition);
   if (!range) return {};
@@ -166,7 +166,7 @@ std::string to_json(const Comparison& comparison) {
 std::string to_text(const Comparison& comparison) {
   std::string text = fmt::format("A: {}\nB: {}\n\n{}\n", side_text(comparison.a), side_text(comparison.b),
                                  comparison_sentence(comparison));
-  text += "  5 % level for all quantities together (p by Holm); intervals are of 95 % for each\n\n";
+  text += "  5 % level for all quantities together (p adjusted by Holm); 95 % intervals for each quantity\n\n";
   Table table({Align::Left, Align::Right, Align::Right, Align::Right, Align::Left, Align::Right, Align::Left,
                Align::Right, Align::Right, Align::Left});
   table.add({"", "A", "B", "B - A", "", "B / A", "", "p", "p (Holm)", ""});

@@ -17,7 +17,7 @@ Json timing_json(const Timing& timing) {
               {"total_s", timing.total_s}};
 }
 
-/// What one recording shows, alone or in a sweep.
+/// Writes the results of one recording, alone or in a sweep.
 void add_analysis(Json& json, const Recording& recording, const Analysis& analysis, std::optional<SweepRole> role) {
   json["recording"] = recording_json(recording, analysis);
   json["status"] = name_of(analysis.motion);
@@ -90,7 +90,7 @@ Json member_json(const SweepEntry& entry, const Analysis& analysis, SweepRole ro
   return json;
 }
 
-/// What a prediction needs to know of the recordings.
+/// Writes the properties of the recordings that a prediction needs.
 void add_reach(Json& json, const ModelEstimate& model) {
   if (model.ageing) json["ageing_reference_s"] = model.ageing->reference_stick_s;
   if (model.stiffness_trend) json["stiffness_speed_m_per_s"] = model.stiffness_trend->speed_m_per_s;

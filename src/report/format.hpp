@@ -38,7 +38,7 @@ struct EstimateRow {
   std::string unit;
 };
 EstimateRow estimate_row(const Estimate& SI, const DisplayUnit& unit);
-/// In the unit that suits it.
+/// Returns the row of an estimate in a suitable unit.
 EstimateRow estimate_row(const Estimate& estimate, const std::string& SI_unit);
 
 /// "49.3 ms [47.1, 51.7]"; "-" where it is not known.
@@ -62,7 +62,7 @@ std::string plain_words(std::string_view name);
 /// The unit of the force column: N, or 1 (empty text) for a friction coefficient.
 std::string force_unit(ForceQuantity quantity);
 
-/// For CSV: the shortest text that reads back as the same double; empty where there is no number.
+/// Returns a CSV cell: the shortest text that reads back as the same double; empty without a number.
 std::string cell(std::optional<double> value);
 
 /// Characters of a text, not bytes: the continuation bytes of UTF-8 take no room.

@@ -31,7 +31,7 @@ Json step_json(const StepInfo& step) {
           {"normal_force_N", step.normal_force_N}};
 }
 
-/// What --sheet or --variable can name, where there is a choice.
+/// Returns the tables that --sheet or --variable can select, if there are several.
 std::string tables_text(const char* heading, const std::vector<std::string>& names) {
   constexpr std::size_t kMostShown = 50;
   if (names.size() < 2) return {};
@@ -111,7 +111,7 @@ std::string to_text(const Inspection& inspection, const std::string& file) {
   text += tables_text("Sheets (--sheet)", info.sheets) + tables_text("Variables (--variable)", info.variables);
   text += info_steps_text(info.steps) + info_taken_text(inspection);
   text += assumed_text(info.assumed);
-  if (info.refusal) text += "\nNot read as it is: " + printable(info.refusal->message) + "\n";
+  if (info.refusal) text += "\nCannot be read without options: " + printable(info.refusal->message) + "\n";
   return text;
 }
 

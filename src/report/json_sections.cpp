@@ -30,7 +30,7 @@ Json quality_json(const Recording& recording, const Quality& quality) {
   return json;
 }
 
-/// Files that were read beside that of the recording, if any.
+/// Files that were read in addition to the recording, if any.
 void put_other_inputs(Json& json, const Conditions& conditions) {
   if (!conditions.worn_track || conditions.worn_track->inputs.empty()) return;
   json["other_inputs"] = array_of(conditions.worn_track->inputs, [](const InputFile& input) {
@@ -157,21 +157,22 @@ Json candidate_json(const Candidate& candidate, ForceQuantity quantity) {
   return json;
 }
 
-/// Its place in ModelEstimate::covariance.
+/// Returns the position of a parameter in ModelEstimate::covariance.
 std::size_t place_of(const std::string& name) {
   const auto* const found =
       std::ranges::find_if(kModelParameters, [&name](ParameterId id) { return info(id).key == name; });
   return static_cast<std::size_t>(found - kModelParameters.begin());
 }
 
-/// What the covariance belongs to, in the order of Correlation::names. A value that the data hardly tell alone, and
-/// whose parameter is therefore null, still stands here: together with the others it predicts.
+/// Writes the values to which the covariance belongs, in the order of Correlation::names. A value that the data hardly
+/// determine alone, and whose parameter is therefore null, is still included: together with the others it predicts.
 Json working_values_json(const Correlation& correlation, const ModelEstimate& estimate) {
   const std::array<double, kModelValues> values = values_of(estimate);
   return array_of(correlation.names, [&values](const std::string& name) { return values[place_of(name)]; });
 }
 
-/// With the matrix this is the whole covariance. Where zeta lies at 0 the se of the parameters is wider.
+/// Writes the standard errors that with the matrix are the whole covariance. If zeta is at 0, the se of the parameters
+/// is wider.
 Json scaled_errors_json(const Correlation& correlation, const ModelEstimate& estimate) {
   return array_of(correlation.names, [&estimate](const std::string& name) {
     const std::size_t i = place_of(name);

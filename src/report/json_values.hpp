@@ -51,7 +51,7 @@ Json array_of(const Items& items, ToJson to_json) {
 std::string text_of(const Json& json, JsonLayout layout = JsonLayout::Indented);
 
 /// Numbers in the unit of the force column. The keys NAME_N hold newtons and are null for a friction coefficient, whose
-/// numbers stand in the object "coefficient" instead.
+/// numbers are in the object "coefficient" instead.
 class ForceKeys {
  public:
   ForceKeys(Json& object, ForceQuantity quantity) : object_(object), quantity_(quantity) {}

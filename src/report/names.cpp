@@ -47,10 +47,10 @@ std::string_view name_of(ParameterStatus status) {
 }
 
 std::string_view words_for_status(ParameterStatus status) {
-  return name_in({"the data determine it", "an estimate that should be confirmed", "only an interval is known",
-                  "the data do not determine it", "held at the stated value",
-                  "well determined if the assumption in its note holds"},
-                 status);
+  return name_in(
+      {"the data determine it", "an estimate that should be confirmed", "only an interval is known",
+       "the data do not determine it", "fixed at the stated value", "determined if the assumption in its note holds"},
+      status);
 }
 
 std::string_view name_of(SweepRole role) {

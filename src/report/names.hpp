@@ -20,10 +20,10 @@ std::string_view name_of(Regime regime);
 std::string_view name_of(FrequencyMethod method);
 std::string_view name_of(TestKind kind);
 
-/// What a recording shows, for people.
+/// Returns the kind of motion in words.
 std::string_view words_for_motion(MotionClass motion);
 
-/// What a status means, for readers without the documentation.
+/// Returns the meaning of a status for readers without the documentation.
 std::string_view words_for_status(ParameterStatus status);
 
 }  // namespace slipfit

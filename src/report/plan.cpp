@@ -24,9 +24,9 @@ constexpr std::array<LimitWords, 6> kLimits{
     {{"noise", "noise of the samples: more cycles, or a quieter sensor"},
      {"scatter", "scatter of the static friction: more cycles"},
      {"sampling", "too few samples in a slip: a faster clock"},
-     {"cycles", "noise and scatter alike: more cycles"},
-     {"misfit", "more than noise and scatter: cycles or recordings disagree with the model"},
-     {"held", "held by --fix"}}};
+     {"cycles", "noise and scatter: more cycles"},
+     {"misfit", "systematic differences: cycles or recordings disagree with the model"},
+     {"held", "fixed by --fix"}}};
 
 const LimitWords& words_of(Limit limit) {
   return kLimits.at(static_cast<std::size_t>(limit));
@@ -39,9 +39,9 @@ std::string percent(double part, double whole) {
 }
 
 std::string options_text(const Plan& plan, const PredictionSource& source) {
-  if (plan.options.empty()) return "\nNo speed around those measured gives enough cycles in the same time.\n";
+  if (plan.options.empty()) return "\nNo speed near those measured gives enough cycles in the same time.\n";
   Table table({Align::Right, Align::Right, Align::Right, Align::Right, Align::Right, Align::Right});
-  table.add({"speed", "sample rate", "duration", "cycles", "samples a slip", "standard error then"});
+  table.add({"speed", "sample rate", "duration", "cycles", "samples per slip", "standard error then"});
   for (const PlanOption& option : plan.options) {
     table.add(
         {quantity_text(option.recording.speed_m_per_s, speed_unit(source.speed_unit, option.recording.speed_m_per_s)),
@@ -49,10 +49,10 @@ std::string options_text(const Plan& plan, const PredictionSource& source) {
          fmt::format("{:.0f}", option.cycles), fmt::format("{:.1f}", option.samples_per_slip),
          percent(option.standard_error, plan.value)});
   }
-  std::string text = "\nOne recording more, as long as those before (best first)\n" + table.text();
+  std::string text = "\nOne additional recording, as long as the previous ones (best first)\n" + table.text();
   if (!plan.halving_s)
-    return text + "  no reasonable duration at the first of these speeds halves the standard error\n";
-  return text + fmt::format("  {} at the first of these speeds halve the standard error\n",
+    return text + "  no reasonable duration at the first of these speeds would halve the standard error\n";
+  return text + fmt::format("  {} at the first of these speeds would halve the standard error\n",
                             quantity_text(*plan.halving_s, "s"));
 }
 
@@ -62,7 +62,7 @@ std::string limits_text(const Plan& plan) {
   for (const ParameterLimit& limit : plan.limits) {
     table.add({limit.name, percent(limit.standard_error, limit.value), std::string(words_of(limit.limit).words)});
   }
-  return "\nWhat limits each parameter\n" + table.text();
+  return "\nLimits of each parameter\n" + table.text();
 }
 
 Json option_json(const PlanOption& option) {
@@ -98,7 +98,7 @@ std::string to_json(const Plan& plan, const PredictionSource& source) {
 }
 
 std::string to_text(const Plan& plan, const PredictionSource& source) {
-  std::string text = fmt::format("To narrow {}", plan.target.name);
+  std::string text = fmt::format("To improve {}", plan.target.name);
   if (plan.target.speed_m_per_s)
     text +=
         " at " + quantity_text(*plan.target.speed_m_per_s, speed_unit(source.speed_unit, plan.target.speed_m_per_s));

@@ -10,14 +10,14 @@
 
 namespace slipfit {
 
-/// A quantity of a recording beside the parameters: its key in the document, its words and SI unit for people.
+/// A quantity of a recording other than the parameters: its key in the document, its words and SI unit for people.
 template <class Owner>
 struct Quantity {
   std::string_view key, words, unit;
   Estimate Owner::*estimate;
 };
 
-/// What the model says at the recording's own speed.
+/// Predictions of the model at the recording's own speed.
 inline constexpr std::array<Quantity<Derived>, 6> kPredicted{
     {{"periodic_displacement_m", "periodic displacement", "m", &Derived::periodic_displacement_m},
      {"lambda", "lambda", "", &Derived::lambda},
@@ -26,30 +26,30 @@ inline constexpr std::array<Quantity<Derived>, 6> kPredicted{
      {"gamma", "F_s / F_k (gamma)", "", &Derived::gamma},
      {"micro_vibration_spacing_m", "micro-vibration spacing (estimate)", "m", &Derived::micro_vibration_spacing_m}}};
 
-/// What speed and frequency give without a model.
+/// Quantities that follow from speed and frequency without a model.
 inline constexpr std::array<Quantity<Derived>, 2> kMeasured{
     {{"pattern_spacing_m", "pattern spacing", "m", &Derived::pattern_spacing_m},
      {"impulse_rate_per_m", "impulses along the path", "1/m", &Derived::impulse_rate_per_m}}};
 
-/// Of friction, where a load is known.
+/// Coefficients of friction, available if a load is known.
 inline constexpr std::array<Quantity<Coefficients>, 3> kCoefficients{
     {{"static_first_peak", "static, first peak", "", &Coefficients::static_first_peak},
      {"static_mean_peak", "static, mean of the peaks", "", &Coefficients::static_mean_peak},
      {"kinetic_mean", "kinetic, mean while sliding", "", &Coefficients::kinetic_mean}}};
 
-/// Of newtons; `breakaway_force` counts as the force column does.
+/// Transients in newtons; `breakaway_force` has the unit of the force column.
 inline constexpr std::array<Quantity<Transients>, 4> kTransients{
     {{"loading_stiffness_N_per_m", "slope of the loading ramp / V", "N/m", &Transients::loading_stiffness_N_per_m},
      {"breakaway_force_N", "first peak (breakaway)", "N", &Transients::breakaway_force},
      {"ringdown_frequency_Hz", "ring-down, frequency", "Hz", &Transients::ring_down_frequency_Hz},
      {"ringdown_damping_ratio", "ring-down, damping ratio", "", &Transients::ring_down_damping_ratio}}};
 
-/// Whether friction changes on the way.
+/// Coefficients in the first and last third, which show a change of friction.
 inline constexpr std::array<Quantity<Coefficients>, 2> kCoefficientThirds{
     {{"kinetic_first_third", "kinetic, first third", "", &Coefficients::kinetic_first_third},
      {"kinetic_last_third", "kinetic, last third", "", &Coefficients::kinetic_last_third}}};
 
-/// Their scatter.
+/// The scatter of the coefficients.
 struct CoefficientSpread {
   std::string_view key, words;
   std::optional<double> Coefficients::*value;

@@ -232,7 +232,7 @@ std::string residual_sentence(const FitResult& fit, ForceQuantity quantity) {
   return text + ".";
 }
 
-/// What was done about defects of the recording and with effects of the instrument, in a line or two.
+/// Returns the treatment of defects of the recording and of effects of the instrument, in one or two lines.
 std::string facts_text(const Warnings& warnings) {
   std::string facts;
   for (const Warning& warning : warnings) {
@@ -252,7 +252,7 @@ void add_parameters(Screen& screen, const FitResult& fit, bool zero_is_known) {
   }
 }
 
-/// What the cycles show without a fit.
+/// Adds the properties of the cycles that need no fit.
 void add_cycles(Screen& screen, const CycleStatistics& cycles, ForceQuantity quantity) {
   const auto add = [&](std::string_view label, std::optional<double> value, const std::string& unit) {
     if (value) screen.add_row(label, estimate_row(Estimate{value, {}, {}, {}}, unit), "measured", {});

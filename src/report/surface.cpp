@@ -58,7 +58,7 @@ Block pattern_block(const Profile& profile, const Surface& surface) {
   block.add("ridge height", surface.ridge_height, profile.height_in_metres ? "m" : "");
   if (surface.asymmetry) block.rows.push_back({"rise over fall", fmt::format("{:.2f}", *surface.asymmetry)});
   add_length("RSm", surface.rsm_m);
-  add_length("cut-off of the waves", surface.cutoff_m);
+  add_length("cut-off wavelength of the waves", surface.cutoff_m);
   add_length("ridges smoothed over", surface.smoothed_over_m);
   return block;
 }

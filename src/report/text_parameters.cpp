@@ -50,7 +50,7 @@ std::string critical_speed_text(const Estimate& speed_m_per_s, const Estimate& l
   if (!speed_m_per_s.value) return text + (note.empty() ? "not known" : printable(note)) + "\n";
   text += estimate_text(speed_m_per_s, speed_unit(given_unit, speed_m_per_s.value));
   if (!note.empty()) return text + "\n  " + printable(note) + "\n";
-  return text + fmt::format(", lambda at it {}\n", estimate_text(lambda, display_unit("", {})));
+  return text + fmt::format(", lambda there {}\n", estimate_text(lambda, display_unit("", {})));
 }
 
 std::string off_by(const Estimate& predicted, const Estimate& measured) {
@@ -98,11 +98,11 @@ std::string parameters_text(const FitResult& fit, ForceQuantity quantity, const 
 std::string parameters_text(const Recording& recording, const Analysis& analysis) {
   if (!analysis.fit) return {};
   if (analysis.motion == MotionClass::SteadySliding) {
-    return "\nParameters\n  none: the model describes stick-slip, and this recording shows none\n";
+    return "\nParameters\n  none: the model describes stick-slip, which this recording does not show\n";
   }
   const bool is_doubtful = analysis.motion == MotionClass::Undetermined;
   return parameters_text(*analysis.fit, recording.conditions().quantity,
-                         is_doubtful ? " (not to rely on: this may be no stick-slip)" : "");
+                         is_doubtful ? " (unreliable: the motion may not be stick-slip)" : "");
 }
 
 namespace {

@@ -13,16 +13,16 @@ std::string headline_of(const Recording& recording, const Analysis& analysis);
 
 // One function a section of the report for people; each ends with a line break, or is empty.
 std::string parameters_text(const Recording& recording, const Analysis& analysis);
-/// `caution` follows the heading.
+/// Returns the table of parameters; `caution` follows the heading.
 std::string parameters_text(const FitResult& fit, ForceQuantity quantity, const std::string& caution);
 /// "assumed: Coulomb friction; ..."
 std::string conditions_text(const std::vector<std::string>& conditional_on);
-/// "  critical speed: 20 mm/s [19, 21], lambda at it 0.69 [0.67, 0.71]", or why it is not known.
+/// "  critical speed: 20 mm/s [19, 21], lambda there 0.69 [0.67, 0.71]", or why it is not known.
 std::string critical_speed_text(const Estimate& speed_m_per_s, const Estimate& lambda, const std::string& given_unit);
 /// "-1.0 %"; "-" where one is not known.
 std::string off_by(const Estimate& predicted, const Estimate& measured);
 std::string warnings_text(const Warnings& warnings);
-/// What was assumed while reading a file.
+/// Returns the assumptions made while reading a file.
 std::string assumed_text(const std::vector<std::string>& assumed);
 
 /// A parameter as people see it: a bounded one's middle is no estimate, they see the interval alone.

@@ -155,7 +155,7 @@ bool measure_line(const BandPower& bands, std::size_t h, Comb& comb) {
   const double above = bands.mean(line + away - gap, line + away + gap);
   comb.line_shape[h] = bands.shape(2.0 * half);
   comb.gap_shape[h] = 2.0 * bands.shape(2.0 * gap);
-  // A smooth background may stand above the mean of its sides by a third or so (the knee of a low-pass): where
+  // A smooth background may exceed the mean of its sides by a third or so (the knee of a low-pass): where
   // averaging over a broad line would make that significant, it is allowed for.
   const double expected = (1.5 - 0.5 / comb.line_shape[h]) * 0.5 * (below + above);
   const double height = bands.mean(line - half, line + half);

@@ -9,10 +9,10 @@
 namespace slipfit::signal {
 
 /// Power times frequency of a spectrum, ready for means over any band. (Times frequency, because the mean of the two
-/// gaps beside a line then equals the background under it for white noise and for 1/f, and exceeds it for 1/f^2.)
+/// gaps next to a line then equals the background under it for white noise and for 1/f, and exceeds it for 1/f^2.)
 class BandPower {
  public:
-  /// `resolution_Hz`: one over the duration; the bins may be finer (zero padding).
+  /// Computes the power in bands. `resolution_Hz` is one over the duration; the bins may be finer (zero padding).
   BandPower(std::span<const double> power, double bin_Hz, double resolution_Hz);
 
   [[nodiscard]] double mean(double low_Hz, double high_Hz) const {
@@ -61,7 +61,7 @@ struct CombRange {
 };
 
 /// The combs worth a look in the range, their false-alarm probability included. `fine`: on a grid finer than the
-/// resolution (few cycles, oversampled spectrum); otherwise from the peaks that stand out.
+/// resolution (few cycles, oversampled spectrum); otherwise from the significant peaks.
 enum class CombGrid { Fine, Peaks };
 std::vector<Comb> search_combs(const BandPower& bands, CombRange range, CombGrid grid);
 

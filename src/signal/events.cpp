@@ -76,9 +76,8 @@ Detection detect_beyond(const Falls& falls, double hysteresis) {
   return detection;
 }
 
-constexpr double kSameCount = 1.05;  // ratio of two numbers of falls that are the same
-constexpr double kMostAsymmetry =
-    6.0;  // quicker falls than this are not told from each other by sampling and smoothing
+constexpr double kSameCount = 1.05;     // ratio of two numbers of falls that are the same
+constexpr double kMostAsymmetry = 6.0;  // sampling and smoothing do not distinguish quicker falls than this
 
 /// A single fall has no rise to the next one: it counts where the force took its time to get there.
 double score_of(const Detection& detection, double noise) {
@@ -95,7 +94,7 @@ double score_of(const Detection& detection, double noise) {
   return stands_out * std::sqrt(static_cast<double>(detection.falls.size())) * sudden;
 }
 
-/// What one scale shows best.
+/// The result at one time scale.
 struct Scale {
   Means trace;
   double noise = 0.0;

@@ -21,8 +21,8 @@ struct Events {
 
 /// Sudden falls after slow rises, whatever follows them: the trace is smoothed over widths in equal ratios, its turning
 /// points are taken with hystereses in equal ratios, falls are joined where the rise between them is as quick as they
-/// are (ringing). What stands out of its noise most often and falls most suddenly is chosen, at the finest scale that
-/// shows the same falls. `noise`: of the samples. `width`: in samples, where the scale is known.
+/// are (ringing). The scale whose falls exceed its noise most often and are most sudden is chosen, at the finest scale
+/// that shows the same falls. `noise`: of the samples. `width`: in samples, where the scale is known.
 Events find_events(std::vector<double> force, double noise, std::optional<std::size_t> width = std::nullopt);
 
 }  // namespace slipfit::signal

@@ -35,7 +35,7 @@ struct Extent {
   [[nodiscard]] double range() const { return std::max(0.0, high - low); }
 };
 
-/// Of all values, and the turning points among them.
+/// The values processed so far and their turning points.
 struct Passed {
   double range = 0.0;
   std::vector<std::size_t> turns;

@@ -33,7 +33,7 @@ inline double rate(const SeenFall& fall) {
 /// The falls of one trace at hystereses that grow: each pass goes over the turning points of the one before.
 class Falls {
  public:
-  /// Those that stand out of noise of this standard deviation.
+  /// The falls that exceed noise of this standard deviation.
   Falls(const Means& trace, double noise);
 
   /// Highest less lowest value of the trace.
@@ -42,10 +42,10 @@ class Falls {
   /// are no motion.
   [[nodiscard]] double smallest() const { return smallest_; }
 
-  /// False: no turning point is too small, and whatever the falls tell stays as it was.
+  /// Increases the hysteresis; returns false if no turning point is too small, so that the falls are unchanged.
   bool coarsen(double hysteresis);
 
-  /// Those beyond a hysteresis, in their order; what rings is joined.
+  /// Returns the falls larger than a hysteresis in their order; ringing is joined.
   [[nodiscard]] std::vector<SeenFall> beyond(double hysteresis) const;
 
  private:

@@ -11,7 +11,7 @@
 
 namespace slipfit::signal {
 
-/// What plans stand behind. A process that forks while another thread holds one of them, as a batch beside other
+/// The locks of the planner. A process that forks while another thread holds one of them, as a batch next to other
 /// threads does, would leave it locked in its child: a fork takes both first.
 struct PlanLocks {
   std::mutex kept;  ///< the plans that are kept; taken before `planner`
@@ -38,7 +38,7 @@ struct PlanLocks {
   }
 };
 
-/// Complex FFTW transform of one length, planned once. The planner is not thread safe, so it stands behind one lock;
+/// Complex FFTW transform of one length, planned once. The planner is not thread safe, so one lock protects it;
 /// the arrays belong to the caller, so that any number of transforms, in any thread, share a plan.
 class ComplexTransform {
  public:
@@ -48,7 +48,8 @@ class ComplexTransform {
   };
   using Buffer = std::unique_ptr<Complex[], Release>;
 
-  /// Not set to zero. Aligned as FFTW wants it. (fftw_malloc ends the program where there is no memory; this throws.)
+  /// Returns uninitialised memory, aligned as FFTW requires. (fftw_malloc ends the program without memory; this
+  /// function throws.)
   static Buffer allocate(std::size_t length) {
     return Buffer(static_cast<Complex*>(::operator new(sizeof(Complex) * length, kAlignment)));
   }

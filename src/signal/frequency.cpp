@@ -81,9 +81,9 @@ std::vector<Comb> search(const Bands& bands, CombRange range) {
   return combs;
 }
 
-/// Whether a comb carries more than a trace of the power at and above its frequency. A weak line of the electronics
-/// that stands out of a long recording by its sharpness alone is no motion of the slider (two recordings of friction
-/// with nothing periodic to see had such lines with 0.04 % of the power).
+/// Returns true if a comb has more than a trace of the power at and above its frequency. A weak line of the electronics
+/// that is conspicuous in a long recording only by its sharpness is not a motion of the slider (two recordings of
+/// friction without a visible repetition had such lines with 0.04 % of the power).
 bool is_visible(const Comb& comb, const Spectrum& spectrum) {
   const std::vector<double>& power = spectrum.power;
   const auto from = std::min(power.size(), static_cast<std::size_t>(0.5 * comb.frequency_Hz / spectrum.bin_Hz));
@@ -92,7 +92,8 @@ bool is_visible(const Comb& comb, const Spectrum& spectrum) {
   return own > 0.003 * all;
 }
 
-/// Of the combs that noise does not make, the one that explains most lines; else the least likely from noise.
+/// Returns the comb that explains most lines, of those that noise does not produce; otherwise the one that is least
+/// likely from noise.
 Comb choose(const std::vector<Comb>& combs) {
   Comb best;
   for (const Comb& comb : combs) {
@@ -137,7 +138,7 @@ Comb without_subharmonic(const BandPower& bands, const Comb& comb) {
   return comb;
 }
 
-/// A broad comb narrowed down to where its power stands highest.
+/// Narrows a broad comb to the maximum of its power.
 Comb narrowed(const BandPower& bands, Comb comb) {
   while (comb.relative_width * comb.frequency_Hz > 1.5 * bands.resolution_Hz()) {
     const double width = 0.5 * comb.relative_width;
@@ -153,7 +154,8 @@ Comb narrowed(const BandPower& bands, Comb comb) {
   return comb;
 }
 
-/// Harmonics that stand out, counted up to the highest one; no more than the time allowed for one pass over the trace.
+/// The number of significant harmonics, counted up to the highest one; no more than the time allowed for one pass over
+/// the trace.
 std::size_t usable_harmonics(const Comb& comb, std::size_t samples) {
   std::size_t usable = 1;
   for (std::size_t h = 0; h < comb.measured; ++h) {
@@ -202,7 +204,7 @@ double aliasing_error(const BandPower& bands, double frequency_Hz) {
   return std::sqrt(2.0 / 3.0) * turned_rad / (2.0 * std::numbers::pi * cycles);
 }
 
-/// Where the power of every line of the comb has its centre.
+/// Returns the centroid of the power of each line of the comb.
 std::vector<double> line_centres(const BandPower& bands, const Comb& comb, double frequency_Hz) {
   std::vector<double> centres;
   for (std::size_t h = 0; h < comb.measured; ++h) {
@@ -242,7 +244,7 @@ void measure(const Recording& recording, const Bands& bands, const Comb& chosen,
   found.harmonics_Hz = line_centres(used, comb, refined.frequency_Hz);
 }
 
-/// Whether a line is a harmonic of the frequency found.
+/// Returns true if a line is a harmonic of the frequency found.
 bool belongs(double line_Hz, const SpectralFrequency& found, double resolution_Hz) {
   const double order = std::round(line_Hz / *found.value_Hz);
   const double off = std::abs(line_Hz - order * *found.value_Hz);

@@ -9,7 +9,7 @@
 namespace slipfit::signal {
 namespace {
 
-/// Three samples beside the suspected one.
+/// The three samples next to the suspected one.
 struct Side {
   double median = 0.0;
   double range = 0.0;
@@ -21,8 +21,9 @@ Side side_of(double a, double b, double c) {
   return {std::max(std::min(a, b), std::min(std::max(a, b), c)), high - low};
 }
 
-/// Whether `width` samples from i on stand out. What the sides do by themselves is allowed for: the step between them
-/// (a slip), and the range within the quieter one (a slope, the crest of a wave with few samples a period).
+/// Returns true if `width` samples from i on differ from both sides. The variation of the sides themselves is allowed
+/// for: the step between them (a slip), and the range within the quieter one (a slope, the crest of a wave with few
+/// samples a period).
 bool stands_out(std::span<const double> force, std::size_t i, std::size_t width, double noise_rms) {
   const double* after = force.data() + i + width;
   const Side left = side_of(force[i - 1], force[i - 2], force[i - 3]);

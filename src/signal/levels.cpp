@@ -43,7 +43,7 @@ std::optional<double> step_of(const std::vector<double>& distinct) {
   return (distinct.back() - distinct.front()) / steps;
 }
 
-/// As std::round up to 2^51, without its call (SSE2 has no instruction for it).
+/// Rounds like std::round up to 2^51 without its function call (SSE2 has no instruction for it).
 double nearest_whole(double value) {
   constexpr double kShift = 0x1.8p52;
   return (value + kShift) - kShift;

@@ -20,7 +20,7 @@ double half_width(double resolution_Hz, double line_Hz) {
   return std::max(3.0 * resolution_Hz, 2e-3 * line_Hz);
 }
 
-/// Median power beside the line, 16 resolutions on both sides.
+/// The median power on both sides of the line, over 16 resolutions.
 double level_beside(std::span<const double> power, double bin_Hz, double resolution_Hz, double line_Hz) {
   std::vector<double> beside;
   const double top = static_cast<double>(power.size()) - 1.0;
@@ -45,13 +45,14 @@ bool is_at(double frequency_Hz, double target_Hz, double resolution_Hz) {
   return std::abs(frequency_Hz - target_Hz) <= tolerance_of(resolution_Hz, target_Hz);
 }
 
-/// Power over the median beside that makes a line: four times in amplitude, more where so many bins are looked at that
-/// noise alone would reach it (one recording in a thousand; the median of noise power is ln 2 of its mean).
+/// The ratio of power to the median around it that makes a line: four times in amplitude, more where so many bins are
+/// looked at that noise alone would reach it (one recording in a thousand; the median of noise power is ln 2 of its
+/// mean).
 double prominence_among(double bins) {
   return std::max(16.0, std::log(1e3 * bins) / std::log(2.0));
 }
 
-/// The same beside each place where the mains may be.
+/// Returns that ratio for the frequencies where the mains may be.
 double prominence(double bins) {
   return prominence_among(4.0 * kMostHarmonics * bins);
 }

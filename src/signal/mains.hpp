@@ -34,10 +34,10 @@ std::vector<MainsLine> without_bursts(std::vector<MainsLine> lines, const Unifor
 /// "mains 50 Hz", "3rd harmonic of 50 Hz mains".
 std::string describe(const MainsLine& line);
 
-/// Whether it is a multiple of 50 or 60 Hz as exactly as the mains keeps them (0.2 %) and a recording tells.
+/// Returns true if it is a multiple of 50 or 60 Hz within the accuracy of the mains (0.2 %) and of the recording.
 bool is_of_mains(double frequency_Hz, double resolution_Hz);
 
-/// The spectrum with the line replaced by the level beside it.
+/// The spectrum with the line replaced by the level around it.
 void flatten(std::vector<double>& power, double bin_Hz, double resolution_Hz, const MainsLine& line);
 
 /// 50 or 60 Hz where a multiple of the frequency, up to `harmonics`, is nearer to it than 1.5 resolutions: over the
@@ -47,13 +47,13 @@ std::optional<double> mains_in_step(double frequency_Hz, int harmonics, double d
 /// The lines, without those of a mains with which the counted slips agree.
 std::vector<MainsLine> without_hinted(std::vector<MainsLine> lines, std::optional<double> hint_Hz);
 
-/// Whether a frequency lies within the width of a line, or within `reach_Hz` of it if that is more.
+/// Returns true if a frequency is within the width of a line, or within `reach_Hz` if that is larger.
 bool is_on_line(const std::vector<MainsLine>& lines, double frequency_Hz, double reach_Hz);
 
 /// The force without lines of the mains, for looking at, not for fitting: cosine and sine of each under a Hann window,
 /// which keeps the cycles' own lines out.
 struct Dehummed {
-  std::vector<double> lines_Hz;  ///< empty: none stands out, or the mains is slower than 4 turns
+  std::vector<double> lines_Hz;  ///< empty: none is significant, or the mains is slower than 4 turns
   std::vector<double> force;
   double swing = 0.0;  ///< peak to peak, the largest line
 };

@@ -83,8 +83,8 @@ struct Slope {
   double log_likelihood = 0.0;
 };
 
-/// How a walk shows in the phases of segments: in steps between them (the phase sits in the slip), or averaged over
-/// each segment (the phase runs through it), which makes neighbouring increments alike.
+/// The form of a random walk in the phases of segments: in steps between them (the phase changes in the slip), or
+/// averaged over each segment (the phase changes continuously), which makes neighbouring increments similar.
 enum class Walk { Stepped, Averaged };
 
 /// Mean increment of the phase for a given walk-to-noise ratio, by generalised least squares on the increments (their
@@ -128,7 +128,7 @@ std::vector<Slope> slopes_of(const std::vector<PhasePoint>& points, Walk kind) {
   return slopes;
 }
 
-/// The slopes averaged by a power of their likelihood: few increments do not tell a weak walk from none, and the
+/// The slopes averaged by a power of their likelihood: few increments do not distinguish a weak walk from none, and the
 /// standard error has to say so. It contains Student's factor, so that kNormalQuantile of it covers 95 %.
 Slope average(const std::vector<Slope>& slopes, double power, std::size_t points) {
   double best = -1e300;
@@ -163,7 +163,7 @@ std::optional<TrackedFrequency> track_once(const Recording& recording, double ne
   double per_segment = std::max(1.0, std::ceil(cycles / static_cast<double>(kMostSegments)));
   std::vector<Segment> segments = cut_segments(recording, near_Hz, per_segment, harmonics);
   Advance advance = advance_of(segments);
-  while (segments.size() >= 16) {  // longer segments where noise hides the phase of short ones
+  while (segments.size() >= 16) {  // longer segments if noise conceals the phase of short ones
     std::vector<Segment> longer = merge_pairs(segments, advance.radians, harmonics);
     const Advance next = advance_of(longer);
     if (advance.coherence > 0.8 || next.coherence < advance.coherence) break;

@@ -10,8 +10,8 @@ namespace slipfit::signal {
 struct TrackedFrequency {
   double frequency_Hz = 0.0;
   double standard_error_Hz = 0.0;
-  /// The same where the phases show no scatter of the periods, for that case: smaller, since what few cycles can hide
-  /// is all that it allows for. Empty where they do, or where it was not tested.
+  /// The standard error if the phases show no scatter of the periods: smaller, since it allows only for scatter that
+  /// few cycles can conceal. It is empty if they show scatter, or if that was not tested.
   std::optional<double> regular_standard_error_Hz;
 };
 

@@ -17,7 +17,7 @@ bool often_repeats(std::span<const double> force) {
   return static_cast<double>(force.size()) > thresholds::kShortestRepeat * runs;
 }
 
-/// From one run to the next, and the smallest of them.
+/// The number of changes between runs of equal values, and the shortest run.
 struct Changes {
   double usual = 0.0;
   double smallest = 0.0;

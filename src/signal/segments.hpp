@@ -14,7 +14,7 @@ using Complex = std::complex<double>;
 constexpr std::size_t kMostTracked = 10;
 using Pattern = std::array<Complex, kMostTracked>;  ///< one coefficient a harmonic, fundamental first
 
-/// Without the care for infinities that std::complex takes.
+/// Multiplies without the treatment of infinities in std::complex.
 inline Complex multiply(Complex a, Complex b) {
   return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
 }
@@ -31,7 +31,7 @@ struct Segment {
 std::vector<Segment> cut_segments(const Recording& recording, double frequency_Hz, double cycles,
                                   std::size_t harmonics);
 
-/// Mean advance of the fundamental from one segment to the next, and how well it is kept (0 ... 1).
+/// The mean advance of the fundamental from one segment to the next, and its coherence (0 ... 1).
 struct Advance {
   double radians = 0.0;
   double coherence = 0.0;

@@ -5,7 +5,7 @@
 
 namespace slipfit::signal {
 
-/// What harmonics are fitted to; times from the middle on keep a line and the frequency apart.
+/// The samples to which harmonics are fitted; times relative to the middle decorrelate a line and the frequency.
 struct Samples {
   Eigen::VectorXd time_s;
   Eigen::VectorXd force;

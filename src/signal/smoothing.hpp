@@ -6,12 +6,12 @@
 
 namespace slipfit::signal {
 
-/// Means over any width of one trace at the price of two look-ups each.
+/// Means over any width of one trace, from two values of a table each.
 class RunningMeans {
  public:
   explicit RunningMeans(std::span<const double> values);
 
-  /// Of `width` samples each, from every sample on that has as many; none where the trace is shorter.
+  /// Returns the means of `width` samples starting at each sample; none if the trace is shorter.
   [[nodiscard]] std::vector<double> over(std::size_t width) const;
 
  private:
@@ -30,7 +30,7 @@ class Means {
   [[nodiscard]] std::size_t width() const { return width_; }
   [[nodiscard]] std::size_t stride() const { return stride_; }
   [[nodiscard]] std::size_t size() const { return size_; }
-  /// Sample at the middle of the mean j.
+  /// Returns the sample at the middle of mean j.
   [[nodiscard]] std::size_t sample(std::size_t j) const { return j * stride_ + width_ / 2; }
   [[nodiscard]] double operator[](std::size_t j) const {
     const std::size_t i = j * stride_;
@@ -49,8 +49,8 @@ class Means {
   std::size_t size_ = 0;
 };
 
-/// Standard deviation of what scatters from one width to the next, by second differences: ramps and a wandering level
-/// do not count, and slips do not while they take less than half of the time.
+/// Returns the standard deviation of the scatter from one width to the next, by second differences: ramps and a
+/// wandering level do not contribute, nor do slips that take less than half of the time.
 double noise_of(const Means& trace);
 
 }  // namespace slipfit::signal

@@ -11,7 +11,7 @@
 namespace slipfit::signal {
 namespace {
 
-/// What is usual among the falls of a trace.
+/// Typical properties of the falls of a trace.
 struct Usual {
   double drop = 0.0;        ///< median
   double large_drop = 0.0;  ///< 90 % are smaller
@@ -41,7 +41,7 @@ class Train {
   }
   [[nodiscard]] const Usual& usual() const { return usual_; }
 
-  /// Whether fall i belongs to the same sliding as the one before: no pause between them.
+  /// Returns true if fall i belongs to the same sliding as the previous one, without a pause between them.
   [[nodiscard]] bool follows(std::size_t i) const {
     const double loading = (peak(i) - trough(i - 1)) / usual_.rise_rate;
     const double patience = thresholds::kPatience * std::max(usual_.long_interval, loading);
@@ -215,7 +215,7 @@ SampleRange plateau(std::span<const double> force) {
   const Split split = split_of(blocks.level);
   if (!(split.high > split.low)) return whole;
   const double middle = 0.5 * (split.low + split.high);
-  // The sensor's zero may not be known: rest is told by its place.
+  // The zero of the sensor may be unknown: rest is recognised by its position.
   if (blocks.level.front() > middle || blocks.level.back() > middle) return whole;
   SampleRange run = longest_above(blocks.level, middle);
   if (run.size() == 0) return whole;  // levels that differ by their rounding alone

@@ -5,8 +5,8 @@
 
 namespace slipfit::signal {
 
-/// Where nothing can turn in a block, whatever the order of its values, only the highest or lowest so far moves. Small
-/// blocks: the longer one is, the more a ramp rises within it.
+/// Adds a block of values. If nothing can turn in a block, whatever the order of its values, only the highest or lowest
+/// value so far moves. Blocks are small because a ramp rises more within a longer one.
 void TurningPoints::add(std::size_t first, std::span<const double> values) {
   constexpr std::size_t kBlock = 8;
   std::size_t i = 0;

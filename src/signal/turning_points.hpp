@@ -46,7 +46,7 @@ class TurningPoints {
 
   [[nodiscard]] const std::vector<Fall>& falls() const { return falls_; }
 
-  /// Peaks and troughs in turn, those in doubt at the end included: all that a larger hysteresis can turn at.
+  /// Peaks and troughs in turn, including undecided ones at the end: all that a larger hysteresis can turn at.
   [[nodiscard]] std::vector<std::size_t> turns() const {
     std::vector<std::size_t> turns;
     turns.reserve(2 * falls_.size() + 2);

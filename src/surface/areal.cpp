@@ -46,7 +46,7 @@ Projection project(const HeightMap& map, double along_rad, std::size_t thinned) 
   return projection;
 }
 
-/// Without the corners, where few rows take part; gaps stay gaps.
+/// Returns the projection without the corners, to which few rows contribute; gaps remain gaps.
 Projection trimmed(Projection projection) {
   const double most = *std::ranges::max_element(projection.counts);
   const auto is_full = [most](double count) { return count >= 0.5 * most; };
@@ -63,7 +63,7 @@ Projection trimmed(Projection projection) {
   return result;
 }
 
-/// How much the averages vary, form aside.
+/// Returns the variance of the averages after removal of the form.
 double variance_along(const HeightMap& map, double along_rad, std::size_t thinned) {
   Projection projection = trimmed(project(map, along_rad, thinned));
   std::vector<double>& means = projection.means;
@@ -97,11 +97,9 @@ double find_direction(const HeightMap& map) {
 }  // namespace
 
 ThrownError map_too_large(const std::string& file) {
-  return ThrownError(
-      {"map_too_large",
-       fmt::format("{}: has more than {} million points, or more than {} million in one line; cut the track out of it, "
-                   "or thin it out",
-                   file, kMostPoints >> 20U, kMostInLine >> 20U)});
+  return ThrownError({"map_too_large", fmt::format("{}: has more than {} million points, or more than {} million in "
+                                                   "one line; crop it to the track, or use fewer points",
+                                                   file, kMostPoints >> 20U, kMostInLine >> 20U)});
 }
 
 void check_extent(std::size_t columns, std::size_t rows, const std::string& file) {
@@ -122,9 +120,10 @@ Profile profile_of(const HeightMap& map, std::optional<double> along_rad) {
   profile.along_rad = along_rad ? along : find_direction(map);
   const double degrees = *profile.along_rad * 180.0 / std::numbers::pi;
   if (!along_rad) {
-    profile.assumed.push_back(fmt::format(
-        "The track slid at {:.1f} degrees from the x axis, along which the averaged heights vary most (--along).",
-        degrees));
+    profile.assumed.push_back(
+        fmt::format("The sliding direction is {:.1f} degrees from the x axis, the direction in which the averaged "
+                    "heights vary most (--along).",
+                    degrees));
   }
   Projection projection = trimmed(project(map, *profile.along_rad, 1));
   profile.pitch_m = projection.step_m;
@@ -135,7 +134,7 @@ Profile profile_of(const HeightMap& map, std::optional<double> along_rad) {
 
 Result<Profile> profile_of(std::vector<double> places_m, std::vector<double> heights, const std::string& file) {
   if (places_m.size() < 2)
-    return Error{"too_few_points", file + ": holds fewer than two points; measure a longer track"};
+    return Error{"too_few_points", file + ": contains fewer than two points; measure a longer track"};
   if (places_m.front() > places_m.back()) {
     std::ranges::reverse(places_m);
     std::ranges::reverse(heights);
@@ -143,8 +142,8 @@ Result<Profile> profile_of(std::vector<double> places_m, std::vector<double> hei
   for (std::size_t i = 1; i < places_m.size(); ++i) {
     if (places_m[i] > places_m[i - 1]) continue;
     return Error{"places_not_rising",
-                 fmt::format("{}: the places along the track do not rise from point {} to the next; "
-                             "give one profile, or name its columns with --x-column and --z-column",
+                 fmt::format("{}: the positions along the track do not increase from point {} to the next; give one "
+                             "profile, or name its columns with --x-column and --z-column",
                              file, i)};
   }
   Profile profile;
@@ -169,7 +168,8 @@ Result<Profile> profile_of(std::vector<double> places_m, std::vector<double> hei
     const bool is_hole = gap > 3.5 * profile.pitch_m && share > 0.0 && share < 1.0;
     profile.height.push_back(is_hole ? kHole : given[right - 1] + share * (given[right] - given[right - 1]));
   }
-  profile.assumed.emplace_back("The places along the track are uneven: heights between them were taken on even steps.");
+  profile.assumed.emplace_back(
+      "The positions along the track are uneven: the heights were interpolated to even steps.");
   return profile;
 }
 

@@ -27,14 +27,14 @@ struct HeightMap {
 constexpr std::size_t kMostPoints = std::size_t{64} << 20U;
 constexpr std::size_t kMostInLine = std::size_t{4} << 20U;  ///< points of a profile, or of a line of an area
 ThrownError map_too_large(const std::string& file);
-/// Error: map_too_large.
+/// Checks the size of an area. Error: map_too_large.
 void check_extent(std::size_t columns, std::size_t rows, const std::string& file);
 
-/// All rows averaged across the direction of sliding: the given one, else that in which the averages vary most (form
-/// aside). A single row is the profile itself.
+/// Returns all rows averaged across the sliding direction: the stated one, otherwise that in which the averages vary
+/// most (after removal of the form). A single row is the profile itself.
 Profile profile_of(const HeightMap& map, std::optional<double> along_rad);
 
-/// Heights at these places, on even steps: as they stand where they are even, else between neighbours. Errors:
+/// Heights at these places, on even steps: unchanged if they are even, otherwise interpolated. Errors:
 /// places_not_rising, no_unit.
 Result<Profile> profile_of(std::vector<double> places_m, std::vector<double> heights, const std::string& file);
 

@@ -17,12 +17,12 @@ double reach_towards(const Estimate& from, double other) {
   return other > *from.value ? from.ci95->high - *from.value : *from.value - from.ci95->low;
 }
 
-/// A coarse pattern of every second, third, ... slip. A whole number is told only where its neighbours are not as good.
+/// A coarse pattern of every second, third, ... slip. A whole number is reported only if its neighbours fit worse.
 std::string ratio_verdict(double ratio, double relative_reach) {
   if (std::abs(ratio - 1.0) < thresholds::kNearlySame) {
     return fmt::format(
-        "nearly the same: the spacings differ by {:.2g} %, more than their uncertainties allow; a stated "
-        "speed that is off does that (--speed-uncertainty)",
+        "nearly the same: the spacings differ by {:.2g} %, more than their uncertainties allow; an inaccurate stated "
+        "speed is a possible reason (--speed-uncertainty)",
         100.0 * std::abs(ratio - 1.0));
   }
   for (const bool is_coarser : {true, false}) {
@@ -38,7 +38,7 @@ std::string ratio_verdict(double ratio, double relative_reach) {
                       : fmt::format("the pattern is {:.0f} times as fine as the slips: each slip leaves several ridges",
                                     whole);
   }
-  return "no relation: the pattern is neither that of the slips nor a whole number of it";
+  return "no relation: the spacing of the pattern is neither that of the slips nor a multiple of it";
 }
 
 }  // namespace

@@ -9,7 +9,7 @@ namespace slipfit::surface {
 HeightMap read_image(const SurfaceFile& file, const ProfileOptions& options) {
   if (!options.pixel_m) {
     throw ThrownError(
-        {"no_pixel", file.name + ": an image; say how large its pixels are on the surface: --pixel 2.1um"});
+        {"no_pixel", file.name + ": an image; state the size of its pixels on the surface: --pixel 2.1um"});
   }
   const reading::HelperOutput output = reading::run_helper(
       {"slipfit-image", {reading::kFileOfHelper}, "an image", "libleptonica-dev"}, std::move(*file.stream), file.name);

@@ -7,15 +7,15 @@
 
 namespace slipfit::surface {
 
-/// Mean of a series of distances between neighbours, and how well it is known.
+/// The mean of a series of distances between neighbours, and its uncertainty.
 struct MeanSpacing {
   double value = 0.0;
   double standard_error = 0.0;  ///< half of the 95 % interval over kNormalQuantile
   Interval ci95;
-  double clock_share = 0.0;  ///< probability that the places stand about even marks
+  double clock_share = 0.0;  ///< probability that the positions scatter around even marks
 };
 
-/// What the spectrum says of the marks, if the places stand about even ones.
+/// Properties of the marks by the spectrum, if their positions scatter around even ones.
 struct Clock {
   double spacing = 0.0;
   double standard_error = 0.0;

@@ -23,10 +23,9 @@ using surface::Pattern;
 constexpr Range kPositive{1e-300, 1e300};
 
 Error too_few_ridges(const Profile& profile, double count) {
-  return {"too_few_ridges",
-          fmt::format("{}: the track holds only about {:.0f} ridges, and fewer than {:.0f} do not tell their spacing; "
-                      "measure a longer track",
-                      profile.file, count, thresholds::kFewestOnTrack)};
+  return {"too_few_ridges", fmt::format("{}: the track has only about {:.0f} ridges; fewer than {:.0f} do not "
+                                        "determine the spacing; measure a longer track",
+                                        profile.file, count, thresholds::kFewestOnTrack)};
 }
 
 std::optional<Error> refusal(const Profile& profile) {
@@ -39,17 +38,16 @@ std::optional<Error> refusal(const Profile& profile) {
                              profile.file, z.size(), thresholds::kFewestPoints)};
   }
   if (static_cast<double>(holes) > thresholds::kMostHoles * static_cast<double>(z.size())) {
-    return Error{
-        "too_many_holes",
-        fmt::format("{}: {:.0f} % of the points were not measured, at most a tenth is bridged; measure the track "
-                    "again or cut it to its good part",
-                    profile.file, 100.0 * static_cast<double>(holes) / static_cast<double>(z.size()))};
+    return Error{"too_many_holes",
+                 fmt::format("{}: {:.0f} % of the points were not measured, at most a tenth is interpolated; measure "
+                             "the track again or crop it to its good part",
+                             profile.file, 100.0 * static_cast<double>(holes) / static_cast<double>(z.size()))};
   }
   const auto known = std::ranges::find_if(z, [](double h) { return std::isfinite(h); });
   if (std::ranges::all_of(z, [&](double h) { return !std::isfinite(h) || h == *known; })) {
-    return Error{"constant_profile", profile.file +
-                                         ": all heights are equal: there is no surface in it; check the column "
-                                         "(--z-column) and the range of the instrument"};
+    return Error{
+        "constant_profile",
+        profile.file + ": all heights are equal; check the column (--z-column) and the range of the instrument"};
   }
   return std::nullopt;
 }
@@ -78,7 +76,7 @@ Estimate estimate(const surface::MeanSpacing& mean, double scale) {
       kPositive);
 }
 
-/// Of each ridge over the next valley; neighbours are taken as independent.
+/// Returns the mean height of the ridges above the next valley; neighbours are treated as independent.
 Estimate mean_height(const std::vector<double>& heights) {
   const auto n = static_cast<double>(heights.size());
   const double mean = mean_of(heights);
@@ -165,7 +163,7 @@ void conclude(const Profile& profile, const std::vector<Pattern>& patterns, Surf
   if (is_of_the_code(profile, *pattern.spacing)) {
     found.status = SurfaceStatus::Undetermined;
     found.spacing_m =
-        unknown("what repeats has the length of the blocks that JPEG codes an image in; save it as PNG or TIFF");
+        unknown("the repetition has the length of the blocks of JPEG compression; save the image as PNG or TIFF");
     return;
   }
   found.status = pattern.variation < thresholds::kIrregular || pattern.is_from_comb ? SurfaceStatus::Periodic
@@ -178,10 +176,10 @@ void conclude(const Profile& profile, const std::vector<Pattern>& patterns, Surf
 
 void warn(Surface& found) {
   if (!found.spacing_m.value) return;
-  found.warnings.push_back({"origin_not_known",
-                            "a pattern alone does not tell what left it: marks of turning, milling or grinding repeat "
-                            "as well; they have the same "
-                            "spacing beside the track, and a spacing of stick-slip grows with the speed of sliding"});
+  found.warnings.push_back(
+      {"origin_not_known",
+       "a pattern alone does not show its origin: marks of turning, milling or grinding are periodic as well; they "
+       "have the same spacing outside the track, whereas the spacing of stick-slip increases with sliding speed"});
   if (found.rsm_m && std::abs(*found.rsm_m / *found.spacing_m.value - 1.0) > thresholds::kRsmApart) {
     found.warnings.push_back({"rsm_differs",
                               "RSm differs from the spacing by more than a fifth: it counts roughness and "
@@ -192,7 +190,7 @@ void warn(Surface& found) {
   if (begin.value && end.value &&
       std::abs(*begin.value - *end.value) >
           thresholds::kDrifts * std::hypot(*begin.standard_error, *end.standard_error)) {
-    found.warnings.push_back({"spacing_drifts", "the spacing changes along the track: the mean stands for all of it"});
+    found.warnings.push_back({"spacing_drifts", "the spacing changes along the track: its mean is reported"});
   }
 }
 
@@ -213,7 +211,7 @@ Result<Surface> measure_surface(const Profile& profile) {
   const auto holes = std::ranges::count_if(profile.height, [](double h) { return !std::isfinite(h); });
   if (holes > 0) {
     found.warnings.push_back(
-        {"holes_bridged", fmt::format("{} points that were not measured were bridged by lines", holes)});
+        {"holes_bridged", fmt::format("{} points that were not measured were interpolated linearly", holes)});
   }
   warn(found);
   return found;

@@ -53,7 +53,7 @@ Profile read(const SurfaceFile& file, const Magic& magic, const ProfileOptions& 
   const HeightMap map = magic.kind == Kind::Sdf   ? read_sdf(file)
                         : magic.kind == Kind::X3p ? read_x3p(file)
                                                   : read_image(file, options);
-  if (map.values.size() < 2) throw damaged_surface(file, "it holds no points");
+  if (map.values.size() < 2) throw damaged_surface(file, "it contains no points");
   Profile profile = profile_of(map, options.along_rad);
   if (magic.is_jpeg) note_blocks(profile);
   return profile;

@@ -33,7 +33,7 @@ double usual_swing(const std::vector<double>& values) {
   return quantile_of(values, 0.9) - quantile_of(values, 0.1);
 }
 
-/// Where the values pass the middle of two turning points.
+/// Returns the position at which the values cross the midpoint of two turning points.
 double crossing(const std::vector<double>& values, std::size_t from, std::size_t to) {
   const double middle = 0.5 * (values[from] + values[to]);
   const bool falls = values[from] > values[to];
@@ -43,7 +43,7 @@ double crossing(const std::vector<double>& values, std::size_t from, std::size_t
   return static_cast<double>(i) + (step == 0.0 ? 0.5 : std::clamp((middle - values[i]) / step, 0.0, 1.0));
 }
 
-/// Of the parabola through three values.
+/// Returns the maximum of the parabola through three values.
 double top(const std::vector<double>& values, std::size_t i) {
   if (i == 0 || i + 1 >= values.size()) return static_cast<double>(i);
   const double bend = values[i - 1] - 2.0 * values[i] + values[i + 1];

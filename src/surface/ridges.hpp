@@ -16,13 +16,13 @@ struct Ridges {
   [[nodiscard]] std::size_t count() const { return peaks.size(); }
 };
 
-/// `heights` without form. Turning points count from 0.3 of the usual swing on; what the ends of the profile cut is
-/// left out.
+/// Finds ridges in `heights` without form. Turning points count from 0.3 of the usual amplitude on; ridges cut by the
+/// ends of the profile are left out.
 Ridges find_ridges(std::span<const double> heights, double smoothed_over, double waves_above);
 
 std::vector<double> distances(std::span<const double> places);
 
-/// Standard deviation over mean; 0 of fewer than two.
+/// Returns the standard deviation over the mean; 0 for fewer than two values.
 double variation(std::span<const double> values);
 
 }  // namespace slipfit::surface

@@ -73,20 +73,20 @@ bool is_count(double number) {
   return number >= 1.0 && number <= static_cast<double>(kMostPoints) && number == std::floor(number);
 }
 
-/// What is wrong with the header; empty where nothing is.
+/// Returns the defect of the header, or an empty text.
 std::string fault_of(const SdfHeader& header) {
   if (!is_count(header.points) || !is_count(header.profiles))
-    return "its header gives no numbers of points and profiles";
+    return "its header contains no numbers of points and profiles";
   const auto is_length = [](double scale) { return std::isfinite(scale) && scale > 0.0; };
-  if (!is_length(header.x_scale_m)) return "its header gives no distance of the points (Xscale)";
+  if (!is_length(header.x_scale_m)) return "its header contains no distance between points (Xscale)";
   if (header.profiles > 1.0 && !is_length(header.y_scale_m))
-    return "its header gives no distance of the profiles (Yscale)";
-  if (!is_length(header.z_scale_m)) return "its header gives no scale of the heights (Zscale)";
-  if (header.compression > 0.0) return "its heights are compressed, which the standard leaves to each maker";
+    return "its header contains no distance between profiles (Yscale)";
+  if (!is_length(header.z_scale_m)) return "its header contains no scale of the heights (Zscale)";
+  if (header.compression > 0.0) return "its heights are compressed in a format that the standard does not define";
   return {};
 }
 
-/// As ISO 25178-71 has it the lowest integer stands where nothing was measured.
+/// The lowest integer marks points that were not measured (ISO 25178-71).
 template <class Number>
 std::vector<double> heights_of(std::string_view bytes, std::size_t count, double scale) {
   std::vector<double> heights(count);
@@ -107,7 +107,7 @@ struct HeightType {
 template <class Number>
 constexpr HeightType kHeightType{sizeof(Number), heights_of<Number>};
 
-/// By the number of the data type.
+/// Types of the heights by the number of the data type.
 constexpr std::array kHeightTypes{kHeightType<std::uint8_t>, kHeightType<std::uint16_t>, kHeightType<std::uint32_t>,
                                   kHeightType<float>,        kHeightType<std::int8_t>,   kHeightType<std::int16_t>,
                                   kHeightType<std::int32_t>, kHeightType<double>};
@@ -115,10 +115,10 @@ constexpr std::array kHeightTypes{kHeightType<std::uint8_t>, kHeightType<std::ui
 std::vector<double> binary_heights(const SurfaceFile& file, std::string_view bytes, std::size_t count,
                                    const SdfHeader& header) {
   if (!(header.type >= 0.0 && header.type <= 7.0))
-    throw damaged_surface(file, "its data type is none of the standard's");
+    throw damaged_surface(file, "its data type is not defined by the standard");
   const HeightType& type = kHeightTypes.at(static_cast<std::size_t>(header.type));
   if (bytes.size() / type.bytes < count)
-    throw damaged_surface(file, "it ends before the heights that its header announces");
+    throw damaged_surface(file, "it ends before the last height that its header announces");
   return type.read(bytes, count, header.z_scale_m);
 }
 
@@ -132,7 +132,7 @@ std::vector<double> text_heights(const SurfaceFile& file, std::string_view text,
     heights.push_back(scale * reading::plain_number(text.substr(begin, end - begin), false));
     begin = text.find_first_not_of(kBlanks, end);
   }
-  if (heights.size() < count) throw damaged_surface(file, "it ends before the heights that its header announces");
+  if (heights.size() < count) throw damaged_surface(file, "it ends before the last height that its header announces");
   return heights;
 }
 

@@ -119,8 +119,8 @@ class Combs {
   Spectrum spectrum_;
 };
 
-/// A comb that is to stand alone has to show in both halves of the profile. What their spacings differ by is an error
-/// of their mean: a phase that noise hides may wander more than it shows.
+/// A comb that is used alone has to appear in both halves of the profile. What their spacings differ by is an error
+/// of their mean: a phase concealed by noise may wander more than it appears to.
 std::optional<MeanSpacing> mean_of_halves(std::span<const double> heights, const CombSpacing& comb) {
   const std::size_t half = heights.size() / 2;
   std::vector<double> found;
@@ -182,9 +182,9 @@ Pattern measured(std::span<const double> heights, const Combs& combs, const Patt
   const bool is_hidden = pattern.ridges.smoothed_over > thresholds::kMuchSmoothing * mean_distance(pattern);
   if (is_hidden && !agrees) {
     pattern.spacing = std::nullopt;
-    pattern.doubt = "roughness hides how many ridges there are";
+    pattern.doubt = "roughness conceals the number of ridges";
   } else if (!pattern.spacing) {
-    pattern.doubt = "the ridges are seen at one smoothing only";
+    pattern.doubt = "the ridges are found at one smoothing width only";
   }
   return pattern;
 }
@@ -199,7 +199,7 @@ Pattern most_regular(std::span<const double> heights, double distance) {
   return best;
 }
 
-/// A comb that roughness hides from the count: believed where ridges of that distance show at any smoothing, and more
+/// A comb whose ridges roughness conceals: it is accepted if ridges of that distance show at any smoothing, and more
 /// plainly than those of twice it (of which it would be every second line).
 std::optional<Pattern> by_comb(std::span<const double> heights, const Combs& combs) {
   const auto comb = combs.find(std::nullopt);
@@ -208,8 +208,8 @@ std::optional<Pattern> by_comb(std::span<const double> heights, const Combs& com
   const bool shows = !best.places.empty() && best.log_chance < thresholds::kHintOfRidges &&
                      best.log_chance < most_regular(heights, 2.0 * comb->value).log_chance;
   if (!shows || !comb->is_followed() || comb->ridges < thresholds::kFewestCombRidges) {
-    best.doubt = shows ? "the ridges that the spectrum shows are too few or too uneven to follow"
-                       : "a line of the spectrum stands out, but no ridges are seen at its spacing";
+    best.doubt = shows ? "the ridges that the spectrum shows are too few or too irregular to locate"
+                       : "the spectrum has a significant line, but no ridges have its spacing";
     best.comb_spacing = comb->value;
     return best;
   }
@@ -243,8 +243,8 @@ std::vector<Pattern> find_patterns(std::span<const double> heights) {
   std::vector<Pattern> patterns;
   for (const Pattern& seen : scan(heights)) {
     Pattern pattern = measured(heights, combs, seen);
-    // Every third of regular ridges may stand out by chance, and even ridges beat with even samples; but not as high as
-    // the ridges themselves.
+    // Every third of regular ridges may be significant by chance, and even ridges beat with even samples; but not as
+    // high as the ridges themselves.
     const bool is_surer = !patterns.empty() && pattern.spacing &&
                           pattern.log_chance < 2.0 * patterns.front().log_chance &&
                           mean_height(pattern) > thresholds::kHigherRidges * mean_height(patterns.front());

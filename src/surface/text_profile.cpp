@@ -16,7 +16,7 @@ using reading::CellKind;
 using reading::Column;
 using reading::Layout;
 
-/// Which columns are read; without places the pitch says where the heights are.
+/// The columns to read; without positions the pitch defines them.
 struct Choice {
   std::optional<std::size_t> x;
   std::size_t z = 0;
@@ -50,7 +50,7 @@ Choice choose(const Layout& layout, const ProfileOptions& options, const std::st
   }
   if (z) heights = {*z};
   if (heights.empty()) {
-    throw ThrownError({"no_numeric_column", file + ": no column of heights found; name it with --z-column"});
+    throw ThrownError({"no_numeric_column", file + ": no column of heights found; choose it with --z-column"});
   }
   choice.z = heights.front();
   if (heights.size() == 1) return choice;
@@ -59,7 +59,7 @@ Choice choose(const Layout& layout, const ProfileOptions& options, const std::st
                                  file, reading::list_columns(layout))});
 }
 
-/// Metres of one unit of a column; empty where nothing tells.
+/// Returns the metres of one unit of a column; empty if the unit is unknown.
 std::optional<double> scale_of(const Column& column, const ProfileOptions& options) {
   if (options.unit_m) return options.unit_m;
   const auto unit = parse_unit(column.name.unit, Dimension::Length);
@@ -106,7 +106,7 @@ Profile made(Columns columns, const Choice& choice, const Layout& layout, const 
     const double x_scale = *scale_of(layout.columns[*choice.x], options);
     for (double& x : columns.x) x *= x_scale;
     profile = value_or_throw(profile_of(std::move(columns.x), std::move(columns.z), file));
-    profile.assumed.push_back("Places along the track are " + reading::describe(layout, *choice.x) + ".");
+    profile.assumed.push_back("Positions along the track are " + reading::describe(layout, *choice.x) + ".");
   } else {
     profile.pitch_m = *options.pitch_m;
     profile.height = std::move(columns.z);
@@ -124,10 +124,11 @@ Profile read_text_profile(const SurfaceFile& file, const ProfileOptions& options
   const Layout layout = opened.layout;
   const Choice choice = choose(layout, options, file.name);
   if (!choice.x && !options.pitch_m) {
-    throw ThrownError({"no_pitch", file.name + ": a column of heights alone; say how far apart they are: --pitch 1um"});
+    throw ThrownError(
+        {"no_pitch", file.name + ": a column of heights alone; state the distance between them: --pitch 1um"});
   }
   if (choice.x && !scale_of(layout.columns[*choice.x], options)) {
-    throw ThrownError({"no_unit", fmt::format("{}: {} has no unit of length; say which with --unit um", file.name,
+    throw ThrownError({"no_unit", fmt::format("{}: {} has no unit of length; state it with --unit um", file.name,
                                               reading::describe(layout, *choice.x))});
   }
   return made(read_columns(std::move(opened), choice), choice, layout, options, file.name);

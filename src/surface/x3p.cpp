@@ -40,7 +40,7 @@ struct Axis {
   [[nodiscard]] std::size_t bytes() const { return type == 'I' ? 2 : type == 'D' ? 8 : 4; }
 };
 
-/// With a decimal point, as the standard demands, or a decimal comma. NaN for anything else.
+/// Reads a number with a decimal point, as the standard demands, or a decimal comma; NaN for anything else.
 double xml_number(std::string_view text) {
   const double value = reading::plain_number(trim(text), false);
   return std::isfinite(value) ? value : reading::plain_number(trim(text), true);
@@ -95,11 +95,11 @@ struct X3p {
   std::vector<double> places_m;  ///< of an absolute x axis
 };
 
-/// "bindata/data.bin" and the like: of this archive, whatever stands before it.
+/// "bindata/data.bin" and the like: of this archive, whatever precedes it.
 std::string linked(const X3p& x3p, const char* link, std::size_t most) {
   const std::string name(trim(x3p.record3.child("DataLink").child(link).text().as_string()));
   if (name.empty() || x3p.archive.find(name) == nullptr) {
-    throw damaged_surface(x3p.file, "it names a part '" + reading::printable(name) + "' that it does not hold");
+    throw damaged_surface(x3p.file, "it names a part '" + reading::printable(name) + "' that it does not contain");
   }
   return x3p.archive.content(name, most);
 }
@@ -120,7 +120,7 @@ std::vector<double> binary_heights_of(X3p& x3p) {
   const std::size_t before = (x3p.x.is_absolute ? x3p.x.bytes() : 0) + (x3p.y.is_absolute ? x3p.y.bytes() : 0);
   const std::size_t point = before + x3p.z.bytes();
   const std::string bytes = linked(x3p, "PointDataLink", count * point + 1024);
-  if (bytes.size() / point < count) throw damaged_surface(x3p.file, "it ends before the points that it announces");
+  if (bytes.size() / point < count) throw damaged_surface(x3p.file, "it ends before the last point that it announces");
   std::vector<double> heights(count);
   for (std::size_t i = 0; i < count; ++i) {
     if (x3p.x.is_absolute) {
@@ -148,7 +148,7 @@ std::vector<double> listed_heights(X3p& x3p) {
     }
     heights.push_back(x3p.z.offset + x3p.z.increment * z);
   }
-  if (heights.size() < count) throw damaged_surface(x3p.file, "it ends before the points that it announces");
+  if (heights.size() < count) throw damaged_surface(x3p.file, "it ends before the last point that it announces");
   return heights;
 }
 
@@ -164,9 +164,9 @@ void read_sizes(X3p& x3p) {
   const bool is_grid = !matrix.empty();
   x3p.columns = is_grid ? size(matrix.child("SizeX")) : size(x3p.record3.child("ListDimension"));
   x3p.rows = is_grid ? size(matrix.child("SizeY")) : 1;
-  if (x3p.columns == 0 || x3p.rows == 0) throw damaged_surface(x3p.file, "it does not say how many points it holds");
+  if (x3p.columns == 0 || x3p.rows == 0) throw damaged_surface(x3p.file, "it does not state its number of points");
   if (is_grid && size(matrix.child("SizeZ")) > 1) {
-    throw damaged_surface(x3p.file, "it holds several layers, and a surface is one");
+    throw damaged_surface(x3p.file, "it contains several layers; expected one surface");
   }
   check_extent(x3p.columns, x3p.rows, x3p.file.name);
 }
@@ -186,7 +186,7 @@ HeightMap map_of(X3p& x3p) {
   }
   const auto is_length = [](double pitch) { return std::isfinite(pitch) && pitch > 0.0; };
   if (!is_length(map.x_pitch_m) || (map.rows > 1 && !is_length(map.y_pitch_m))) {
-    throw damaged_surface(x3p.file, "it gives no distance of the points");
+    throw damaged_surface(x3p.file, "it contains no distance between points");
   }
   return map;
 }
@@ -202,11 +202,11 @@ HeightMap read_x3p(const SurfaceFile& file) {
   if (archive.find("main.xml") == nullptr) {
     throw ThrownError(
         {"not_a_surface",
-         file.name + ": a zip archive without main.xml, which is no X3P file; give X3P, SDF, text or an image"});
+         file.name + ": a zip archive without main.xml, not an X3P file; give X3P, SDF, text or an image"});
   }
   auto document =
       reading::parse_xml(archive.content("main.xml", kMostXml), pugi::parse_minimal | pugi::parse_escapes, file.name);
-  if (!document) throw damaged_surface(file, "its main.xml is no XML");
+  if (!document) throw damaged_surface(file, "its main.xml is not XML");
   X3p x3p{file, archive, *std::move(document), {}, {}, {}, {}, 0, 1, {}};
   const pugi::xml_node root = x3p.document.document_element();
   const pugi::xml_node axes = root.child("Record1").child("Axes");

@@ -150,7 +150,7 @@ TEST_CASE("only stick-slip with a fit is audited") {
   CHECK(own_audit(recording_at(0.01), analysis).empty());
 }
 
-TEST_CASE("beside a warning that doubts the speed or the units, k, m and c are conditional") {
+TEST_CASE("with a warning about the speed or the units, k, m and c are conditional") {
   const FitResult fit = *analysis_with(5000.0).fit;
   for (const char* const code : {"speed_differs_from_displacement", "speed_differs", "implausible_units"}) {
     CAPTURE(code);

@@ -49,7 +49,7 @@ Recording sawteeth(unsigned seed, const Conditions& conditions) {
 
 }  // namespace
 
-TEST_CASE("coefficients of friction hold the truth in their intervals") {
+TEST_CASE("the intervals of coefficients of friction contain the truth") {
   constexpr double kLoad_N = 10.0;
   constexpr double kMean_N = kPeak_N - 0.5 * kDrop_N;
   int of_peaks = 0;
@@ -65,7 +65,7 @@ TEST_CASE("coefficients of friction hold the truth in their intervals") {
   CHECK(of_mean >= 35);
 }
 
-TEST_CASE("thirds, scatter and what the standards ask stand beside the coefficients") {
+TEST_CASE("thirds, scatter and the requirements of the standards accompany the coefficients") {
   constexpr double kLoad_N = 1.96;
   const double standard_speed = 0.150 / 60.0;  // of ASTM D1894: 6 s are 15 mm
   const auto coefficients = analyze(sawteeth(3, conditions_of(kLoad_N, standard_speed))).coefficients;
@@ -79,8 +79,8 @@ TEST_CASE("thirds, scatter and what the standards ask stand beside the coefficie
   const StandardCoefficients& astm = coefficients->standards[0];
   CHECK(astm.standard == "ASTM D1894");
   REQUIRE(astm.differs.size() == 2);
-  CHECK(astm.differs[0].starts_with("slid 15 mm of 130"));
-  CHECK(astm.differs[1].starts_with("stick-slip"));
+  CHECK(astm.differs[0].starts_with("sliding distance 15 mm of 130"));
+  CHECK(astm.differs[1].starts_with("during stick-slip"));
   CHECK(*astm.kinetic_coefficient.value == Approx(mean));
   CHECK(coefficients->standards[1].differs[0] == "driven at 150 mm/min, not 100");
 }

@@ -27,7 +27,7 @@ Ring ring_of(double omega, double decay, double noise, unsigned seed) {
 
 }  // namespace
 
-TEST_CASE("least squares of an oscillation that dies out hold what it was drawn with", "[ring_down]") {
+TEST_CASE("least squares of a decaying oscillation recover its parameters", "[ring_down]") {
   constexpr double kOmega = 5.0;
   constexpr double kDecay = 0.4;
   constexpr int kRings = 200;

@@ -140,11 +140,11 @@ TEST_CASE("few falls after rises that take three times as long are not stick-sli
   CHECK(analyze(ripple).motion != MotionClass::StickSlip);
 }
 
-TEST_CASE("ripple over the stated path of the drive is steady sliding") {
+TEST_CASE("ripple over the stated drive path is steady sliding") {
   const Recording ripple = cogging(25.3, 0.001, 4.5, 0.01);
   const Analysis analysis = analyze_and_fit(ripple);
   CHECK(analysis.motion == MotionClass::SteadySliding);
-  CHECK(analysis.motion_reason.find("path of the drive") != std::string::npos);
+  CHECK(analysis.motion_reason.find("drive path") != std::string::npos);
   CHECK_FALSE(analysis.frequency.quoted.value);
   CHECK(analyze_and_fit(cogging(25.3, 0.001, 4.5, 0.0083)).motion != MotionClass::SteadySliding);
 }
@@ -181,7 +181,7 @@ TEST_CASE("nearly sinusoidal slips near the mains differ from its hum by their p
   CHECK(analyze_and_fit(hum(frequency_Hz, 5.0)).motion == MotionClass::Undetermined);
 }
 
-TEST_CASE("a quoted frequency that is not the count says so") {
+TEST_CASE("a reported frequency that is not the count states its method") {
   for (const double duration_s : {0.35, 0.7, 1.0, 2.0}) {
     for (const double frequency_Hz : {48.0, 59.1, 61.0}) {
       CAPTURE(duration_s, frequency_Hz);

@@ -62,7 +62,7 @@ TEST_CASE("samples lost in one stick while the clock runs on are in no frequency
   CHECK_FALSE(warns(analyze_and_fit(saw_teeth_with_loss(100)), "broken_rhythm"));
 }
 
-TEST_CASE("swings through a long average do not tell that stick-slip has ended") {
+TEST_CASE("oscillations seen through a long average do not show that stick-slip has ended") {
   const std::vector<SweepEntry> entries{entry_at(1e-3, 1e-3), entry_at(2e-3, 1e-3), entry_at(4e-3, 1e-3),
                                         entry_at(8e-3, 1e-3)};
   const std::vector<Analysis> analyses{moving(MotionClass::StickSlip), moving(MotionClass::SteadySliding),

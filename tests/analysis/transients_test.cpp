@@ -83,7 +83,7 @@ TEST_CASE("loading ramp, breakaway and ring-down are measured outside the slidin
   CHECK(holds(found.ring_down_damping_ratio, run.ring_ratio));
 }
 
-TEST_CASE("a recording that holds neither run-up nor release tells nothing of them", "[transients]") {
+TEST_CASE("a recording without run-up and release has no transients", "[transients]") {
   const Recording whole = run_with_release({});
   const Analysis analysis = analyze(whole.part(6000, 22000));
   REQUIRE(analysis.motion == MotionClass::StickSlip);
@@ -123,7 +123,7 @@ TEST_CASE("slips far slower than the ring-down of the rig do not identify the na
   CHECK(analysis.fit->stiffness().value);
 }
 
-TEST_CASE("values that a logger repeats are taken once", "[repeats]") {
+TEST_CASE("values that a logger repeats are used once", "[repeats]") {
   Run run;
   run.repeats = 4;
   const Analysis repeated = analyze_and_fit(run_with_release(run));

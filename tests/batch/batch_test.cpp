@@ -65,7 +65,7 @@ TEST_CASE("the files of a batch do not depend on the number of jobs") {
   CHECK(files_in(scene.path("one")) == files_in(scene.path("eight")));
 }
 
-TEST_CASE("what the manifest says reaches the fit: units, window, normal force, measured spacing") {
+TEST_CASE("the columns of the manifest reach the fit: units, window, normal force, measured spacing") {
   const BatchScene scene(5);
   const std::string manifest = scene.file(
       "other.csv",
@@ -91,7 +91,7 @@ TEST_CASE("one recording's failure is a row of failures.csv with its code, and t
   CAPTURE(run.err);
   CHECK(run.exit_code == 1);
   CHECK(test::lines_in(run.err) == 1);
-  CHECK_THAT(run.err, Catch::Contains("4 of 7 failed") && Catch::Contains("failures.csv"));
+  CHECK_THAT(run.err, Catch::Contains("4 of 7 recordings failed") && Catch::Contains("failures.csv"));
   const auto files = files_in(scene.path("out"));
   const auto failures = lines_of(files.failures);
   REQUIRE(failures.size() == 5);
@@ -148,7 +148,7 @@ TEST_CASE("a recording that may not be read is a failure, too") {
   CHECK_THAT(files_in(scene.path("out")).failures, Catch::Contains("r1,not_readable,"));
 }
 
-TEST_CASE("run.json says what was run and how it ended") {
+TEST_CASE("run.json records what was run and how it ended") {
   const BatchScene scene(2);
   REQUIRE(batch(scene.manifest(), scene.path("out"), {"--jobs", "2", "--fix", "damping_ratio=0.05"}).exit_code == 0);
   const auto run = nlohmann::json::parse(test::content_of(scene.path("out/run.json")));

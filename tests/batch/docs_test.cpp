@@ -54,7 +54,7 @@ TEST_CASE(
   for (const auto& [key, value] : record.items()) CHECK_THAT(text, Catch::Contains(quoted(key)));
 }
 
-TEST_CASE("a row of summary.csv says what its document says") {
+TEST_CASE("a row of summary.csv agrees with its document") {
   const BatchScene scene(3);
   REQUIRE(test::batch(scene.manifest(), scene.path("out")).exit_code == 0);
   const auto document = nlohmann::json::parse(test::lines_of(test::files_in(scene.path("out")).results).at(1));

@@ -52,7 +52,7 @@ std::vector<std::string> ids_in(const std::string& folder) {
 
 }  // namespace
 
-TEST_CASE("a group's result stands behind its last recording, with all its members") {
+TEST_CASE("the result of a group follows its last recording, with all its members") {
   const BatchScene scene(8);  // g0: 0 3 6, g1: 1 4 7
   run_ok(options_for(scene, "out"));
   CHECK(ids_in(scene.path("out")) ==
@@ -123,7 +123,7 @@ TEST_CASE("a fit that ends its process is tried three times, and touches no othe
              Catch::Contains("\ngroup:g1,crashed,") && Catch::Contains("3 times (signal 9, Killed)"));
 }
 
-TEST_CASE("what is thrown ends no batch") {
+TEST_CASE("an exception does not end a batch") {
   const BatchScene scene(3);
   BatchOptions options = options_for(scene, "out");
   options.fit_group = [](const std::string&, const std::vector<ManifestEntry>&) -> Result<BatchFit> { throw 1; };
@@ -147,7 +147,7 @@ TEST_CASE("a fit that takes longer than the timeout has failed; a group has the 
   CHECK(ids_in(scene.path("out")).size() == 7);
 }
 
-TEST_CASE("a batch that is told to stop finishes what has begun, and can be gone on with") {
+TEST_CASE("a batch that is stopped finishes running fits and can be continued") {
   const BatchScene scene(8);
   BatchOptions options = options_for(scene, "out");
   options.fit_group = [&scene](const std::string& id, const std::vector<ManifestEntry>& members) {

@@ -45,7 +45,7 @@ TEST_CASE("merged shards are the files of one machine, failures included") {
     const auto run = merge(folders, scene.path("merged"));
     CAPTURE(run.err);
     CHECK(run.exit_code == 1);
-    CHECK_THAT(run.err, Catch::Contains("2 of 11 failed"));
+    CHECK_THAT(run.err, Catch::Contains("2 of 11 recordings failed"));
     CHECK(files_in(scene.path("merged")) == files_in(scene.path("single")));
     for (const std::string& folder : folders) std::filesystem::remove_all(folder);
   }
@@ -55,7 +55,7 @@ TEST_CASE("merged shards are the files of one machine, failures included") {
   CHECK(record["shard"]["count"] == 1);
 }
 
-TEST_CASE("shards take rows in turn, whatever their files hold") {
+TEST_CASE("shards take rows in turn, whatever their files contain") {
   const BatchScene scene(7);
   slipfit::BatchOptions options;
   options.manifest = scene.manifest();

@@ -92,7 +92,7 @@ TEST_CASE("a stop ends within two seconds while a recording blocks, and does not
                                       "batch", manifest, "--out", scene.path("out"), "--resume", "--jobs", "2"});
     CAPTURE(run.err);
     CHECK(run.exit_code == 143);
-    CHECK_THAT(run.err, Contains("1 of 2 done; --resume goes on"));
+    CHECK_THAT(run.err, Contains("1 of 2 recordings; --resume continues"));
     CHECK(std::chrono::steady_clock::now() - start < std::chrono::milliseconds(3500));  // 1 s, 2 s, and a busy machine
   }
   std::filesystem::remove(scene.path("pipe.csv"));

@@ -44,11 +44,11 @@ TEST_CASE("a manifest with any fault is refused before anything is done") {
     check_refused_batch(scene, scene.file("bad.csv", content), {}, part);
   };
   refused("id,file\nr0,r0.csv\n", "there is no column 'speed_m_per_s'");
-  refused(names + "r0,r0.csv,0.02\nr0,r1.csv,0.02\n", "bad.csv:3: column 'id': 'r0' stands in line 2");
+  refused(names + "r0,r0.csv,0.02\nr0,r1.csv,0.02\n", "bad.csv:3: column 'id': 'r0' is also in line 2");
   refused("id,file,speed [furlong]\nr0,r0.csv,1\n", "'furlong' is not a unit of speed");
   refused(names + "r0,r0.csv,0.02\nr1,r1.csv\n", "bad.csv:3: 2 fields");
   refused(names + "r0,r0.csv,0.02\na/b,r1.csv,0.02\n", "bad.csv:3: column 'id': bad value 'a/b'");
-  refused(names, "holds no recordings");
+  refused(names, "contains no recordings");
   refused("", "empty");
   check_refused_batch(scene, scene.path("none.csv"), {}, "no such file");
   check_refused_batch(scene, scene.path(""), {"--quiet"}, "no recording has a speed in a column or in its name");
@@ -119,7 +119,7 @@ TEST_CASE("a disk that is really full") {
   CHECK_THAT(run.err, Catch::Contains("No space left on device"));
 }
 
-TEST_CASE("the folder of another batch is refused, and --resume says why") {
+TEST_CASE("the folder of another batch is refused, and --resume states the reason") {
   const BatchScene scene(2);
   const std::string out = scene.path("out");
   REQUIRE(batch(scene.manifest(), out).exit_code == 0);
@@ -189,5 +189,5 @@ TEST_CASE("symbolic links in the folder of a batch are not followed") {
 TEST_CASE("a manifest that is a pipe is refused and not waited for") {
   const BatchScene scene(1);
   REQUIRE(test::run_program("mkfifo", {scene.path("pipe")}).exit_code == 0);
-  check_refused({"batch", scene.path("pipe"), "--out", scene.path("out")}, "no regular file");
+  check_refused({"batch", scene.path("pipe"), "--out", scene.path("out")}, "not a regular file");
 }

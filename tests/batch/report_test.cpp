@@ -120,13 +120,13 @@ TEST_CASE("names and messages from outside stay text, and failures are on the pa
                         Contains("bad&lt;img&gt;"));
 }
 
-TEST_CASE("a report replaces no file that is no page, and its name must be a page's") {
+TEST_CASE("a report replaces only pages, and its name must be that of a page") {
   const BatchScene scene(1);
   const std::string before = test::content_of(scene.path("r0.csv"));
   const std::string manifest = scene.file("input.html", "id,file,speed_m_per_s\nr0,r0.csv,0.02\n");
   const auto input = batch(manifest, scene.path("out"), {"--report", manifest});
   CHECK(input.exit_code == 2);
-  CHECK_THAT(input.err, Contains("input.html: is no page") && Contains("--report"));
+  CHECK_THAT(input.err, Contains("input.html: is not a page") && Contains("--report"));
   CHECK(batch(scene.manifest(), scene.path("out"), {"--report", scene.path("r0.csv")}).exit_code == 2);
   CHECK(batch(scene.manifest(), scene.path("out"), {"--report", scene.path("none/none/index.html")}).exit_code == 2);
   CHECK(test::content_of(scene.path("r0.csv")) == before);

@@ -53,7 +53,7 @@ TEST_CASE("recordings that cannot be read: exit code 3, one line") {
   check_unreadable(folder.file("time-stands.csv", "time_s,force_N\n1,1\n1,2\n1,3\n1,4\n"));
 }
 
-TEST_CASE("a name that holds a line break stays on one line") {
+TEST_CASE("a name that contains a line break stays on one line") {
   const test::TemporaryFolder folder;
   const test::ProgramResult result = slipfit({"fit", folder.path("a\nslipfit: all is well\n.csv"), "--speed", "1"});
   CHECK(result.exit_code == 3);

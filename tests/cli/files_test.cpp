@@ -44,7 +44,7 @@ TEST_CASE("fit, analyze and info of several files treat each on its own") {
   const json one = json::parse(slipfit({"fit", b, "--speed", "20mm/s", "--json"}).out);
   const test::ProgramResult each = slipfit({"fit", a, b, "--speed", "20mm/s", "--json"});
   REQUIRE(each.exit_code == 0);
-  CHECK_THAT(each.err, Catch::Contains("each recording was fitted on its own") && Catch::Contains("--joint"));
+  CHECK_THAT(each.err, Catch::Contains("each recording was fitted separately") && Catch::Contains("--joint"));
   const json documents = json::parse(each.out);
   REQUIRE(documents.size() == 2);
   CHECK(documents[0]["schema"] == "slipfit.fit/1");
@@ -71,17 +71,17 @@ TEST_CASE("of several files those that cannot be read are named, and the others 
   CHECK(json::parse(some.out).size() == 2);
   const test::ProgramResult none = slipfit({"info", folder.path("x.csv"), folder.path("y.csv")});
   CHECK(none.exit_code == 3);
-  check_refused({"fit", a, b, "--speed", "20mm/s", "--report", folder.path("r.html")}, "--report belongs to one");
-  check_refused({"fit", a, b, "--speed", "20mm/s", "--cycles", folder.path("c.csv")}, "--cycles belongs to one");
+  check_refused({"fit", a, b, "--speed", "20mm/s", "--report", folder.path("r.html")}, "--report applies to one");
+  check_refused({"fit", a, b, "--speed", "20mm/s", "--cycles", folder.path("c.csv")}, "--cycles applies to one");
 }
 
-TEST_CASE("a stated speed counts before that of a name, and a message says so") {
+TEST_CASE("a stated speed takes precedence over that of a name, with a message") {
   const test::TemporaryFolder folder;
   const std::string a = folder.file("a_20mmps.csv", simulated_csv("1"));
   const std::string b = folder.file("b_20mmps.csv", simulated_csv("2"));
   const test::ProgramResult fit = slipfit({"fit", a, b, "--speed", "10mm/s", "--json"});
   REQUIRE(fit.exit_code == 0);
-  CHECK_THAT(fit.err, Catch::Contains("0.02 m/s by its file or name, but --speed states 0.01 m/s, which is used"));
+  CHECK_THAT(fit.err, Catch::Contains("states 0.02 m/s, but --speed states 0.01 m/s, which is used"));
   CHECK(json::parse(fit.out)[0]["recording"]["speed_m_per_s"] == 0.01);
   const std::string out = folder.path("out");
   const test::ProgramResult batch = slipfit({"batch", a, b, "--out", out, "--speed", "10mm/s"});
@@ -107,10 +107,10 @@ TEST_CASE("batch takes one recording, several and folders, and a manifest alone"
   check_refused({"batch", broken, "--out", folder.path("o")}, "there is no column 'file'");
 }
 
-TEST_CASE("a page is HTML, whatever the name of --report says") {
+TEST_CASE("a page is HTML whatever the ending of --report") {
   const test::TemporaryFolder folder;
   const std::string a = folder.file("a.csv", simulated_csv("1"));
-  check_refused({"fit", a, "--speed", "20mm/s", "--report", folder.path("x.pdf")}, "print it into a PDF");
+  check_refused({"fit", a, "--speed", "20mm/s", "--report", folder.path("x.pdf")}, "print it to PDF");
   check_refused({"fit", a, "--speed", "20mm/s", "--report", folder.path("x.pdf")}, "x.html");
   check_refused({"batch", a, "--speed", "20mm/s", "--out", folder.path("o"), "--report", folder.path("x.pdf")},
                 "x.html");
@@ -165,15 +165,15 @@ TEST_CASE("batch takes a folder: its manifest is drafted, and options state what
   again.push_back("--resume");
   CHECK(slipfit(again).exit_code == 0);
   again[5] = "30mm/s";
-  check_refused(again, "differs from what would be drafted now");
+  check_refused(again, "differs from the manifest of these files");
   check_refused({"batch", runs, "--out", out, "--shard", "1/2"}, "slipfit manifest");
   check_refused({"batch", runs, "--out", out, "--step", "1"}, "--step");
   check_refused({"batch", out + "/manifest.csv", "--out", folder.path("o"), "--speed", "1"},
-                "--speed does not go with");
+                "--speed cannot be combined with");
   CHECK(test::content_of(out + "/results.jsonl") == results);
 }
 
-TEST_CASE("batch of a folder takes what is the same for all its recordings") {
+TEST_CASE("batch of a folder applies options to all its recordings") {
   const test::TemporaryFolder folder;
   std::filesystem::create_directory(folder.path("runs"));
   static_cast<void>(folder.file("runs/a.csv", simulated_csv("1")));
@@ -207,14 +207,14 @@ TEST_CASE("drafts: names with line ends are left out, and no name runs as a form
   (void)folder.file("@sum v10mmps.csv", test::simulated_csv("8"));
   (void)folder.file("a\nb,=2,0.01 v10mmps.csv", test::simulated_csv("9"));
   const auto draft = slipfit({"manifest", folder.path("")});
-  CHECK_THAT(draft.err, Catch::Contains("the name has a line end"));
+  CHECK_THAT(draft.err, Catch::Contains("the name contains a line end"));
   CHECK(test::lines_in(draft.out) == 3);
   const std::string out = folder.path("out");
   const auto run = slipfit({"batch", folder.path(""), "--out", out});
   CAPTURE(run.err);
   CHECK(run.exit_code == 0);
-  CHECK_THAT(run.err,
-             Catch::Contains("left out: ") && Catch::Contains("a\\nb,=2,0.01 v10mmps.csv: the name has a line end"));
+  CHECK_THAT(run.err, Catch::Contains("left out: ") &&
+                          Catch::Contains("a\\nb,=2,0.01 v10mmps.csv: the name contains a line end"));
   for (const char* const name : {"manifest.csv", "summary.csv"}) {
     const std::string table = test::content_of(out + "/" + name);
     CAPTURE(table);

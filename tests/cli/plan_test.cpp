@@ -44,7 +44,7 @@ TEST_CASE("plan starts from the worst known parameter and names what limits each
   CHECK(plan["halving_s"].get<double>() > 0.0);
   const test::ProgramResult text = slipfit({"plan", example.fit, "--for", "stiffness_N_per_m"});
   CHECK(text.exit_code == 0);
-  for (const char* const part : {"To narrow stiffness_N_per_m", "Coulomb friction", "best first", "What limits each"}) {
+  for (const char* const part : {"To improve stiffness_N_per_m", "Coulomb friction", "best first", "Limits of each"}) {
     CHECK_THAT(text.out, Catch::Contains(part));
   }
 }

@@ -9,7 +9,7 @@
 using nlohmann::json;
 using test::slipfit;
 
-TEST_CASE("a fit document that leaves the motion open is refused with what is open and why") {
+TEST_CASE("a fit document that does not determine the motion is refused with the reason") {
   const test::FitExample example;
   const auto refused = [&example](const std::function<void(json&)>& change, const std::string& part) {
     json document = example.document();
@@ -136,7 +136,7 @@ TEST_CASE("documents out of all bounds are refused before they fill the memory")
   refused(nested, "is nested too deeply");
   std::string many = "{\"a\":[";
   for (std::size_t i = 0; i < 3 * kMega; ++i) many += "0,";
-  refused(many + "0]}", "holds too many values");
+  refused(many + "0]}", "contains too many values");
 }
 
 TEST_CASE("a plan of more samples than any recording has is refused, one of very many is quick") {

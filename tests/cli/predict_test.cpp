@@ -54,7 +54,7 @@ TEST_CASE("predict at the recording's own speed gives what the fit derived: valu
   CHECK(row["force_peak_N"]["value"].get<double>() == Approx(6.0).epsilon(0.02));
 }
 
-TEST_CASE("the round trip keeps the intervals also where the damping lies at its bound, or is held") {
+TEST_CASE("the round trip keeps the intervals also if the damping is at its bound or fixed") {
   const test::TemporaryFolder folder;
   const std::string run =
       folder.file("run.csv", slipfit({"simulate", "--stiffness", "1000", "--natural-frequency", "200",
@@ -111,7 +111,7 @@ TEST_CASE("model options give the exact motion without intervals; above the crit
   CHECK(fast["lambda"]["value"].is_number());
 }
 
-TEST_CASE("near the critical speed the row says that the data do not determine the motion") {
+TEST_CASE("near the critical speed the row states that the data do not determine the motion") {
   const test::FitExample example;
   const json prediction = predicted({example.fit}, "20mm/s,0.42");
   CHECK_FALSE(prediction["rows"][0].contains("note"));

@@ -16,7 +16,7 @@ struct Example {
 
 }  // namespace
 
-TEST_CASE("fit --report writes one page, the same bytes every time, beside the usual output") {
+TEST_CASE("fit --report writes one page in addition to the usual output, the same bytes every time") {
   const Example example;
   const std::vector<std::string> arguments{"fit", example.recording, "--speed", "20mm/s", "--report", example.page};
   const test::ProgramResult first = slipfit(arguments);

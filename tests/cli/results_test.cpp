@@ -101,7 +101,7 @@ TEST_CASE("the report for people begins with the judgement and keeps measured an
   CHECK(measured < predicted);
 }
 
-TEST_CASE("the file of --out holds what standard output would, through a rename that leaves nothing behind") {
+TEST_CASE("the file of --out equals standard output, and its rename leaves no temporary file") {
   const Example example;
   const std::string out = example.folder.file("result.json", "old");
   const test::ProgramResult shown = slipfit({"fit", example.file, "--speed", "20mm/s", "--json"});
@@ -114,7 +114,7 @@ TEST_CASE("the file of --out holds what standard output would, through a rename 
   CHECK(slipfit({"fit", example.file, "--speed", "20mm/s", "--quiet", "--out", out}).err.empty());
 }
 
-TEST_CASE("option --out keeps a link a link and writes to what is no regular file directly") {
+TEST_CASE("option --out keeps a link a link and writes directly to special files") {
   const Example example;
   const std::string target = example.folder.file("target.json", "old");
   const std::string link = example.folder.path("link.json");

@@ -83,7 +83,7 @@ TEST_CASE("every kind of document obeys docs/fit.schema.json, with no key that t
   CHECK((result.exit_code == 0 || result.exit_code == 77));
 }
 
-TEST_CASE("what info says of a file obeys docs/info.schema.json, also of one that fit would refuse") {
+TEST_CASE("the document of info obeys docs/info.schema.json, also for a file that fit would refuse") {
   const test::TemporaryFolder folder;
   std::string steps = "Step,time [s],Fx [N],Fz [N],speed [mm/s]\n";
   for (int i = 0; i < 90; ++i) {
@@ -169,7 +169,7 @@ TEST_CASE("docs/formats.md lists every warning that a recording full of defects 
   }
 }
 
-TEST_CASE("what surface says obeys docs/surface.schema.json, with a pattern and without") {
+TEST_CASE("the document of surface obeys docs/surface.schema.json, with a pattern and without") {
   const test::TemporaryFolder folder;
   std::string ridges = "x [um],z [um]\n";
   std::string rough = ridges;

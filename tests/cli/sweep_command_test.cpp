@@ -15,7 +15,7 @@ using nlohmann::json;
 using test::check_refused;
 using test::slipfit;
 
-TEST_CASE("a joint fit of a Coulomb sweep says so: text, document, prediction") {
+TEST_CASE("a joint fit of a Coulomb sweep states its law in text, document and prediction") {
   const test::SweepExample example;
   const test::ProgramResult text = slipfit({"fit", "--joint", example.manifest, "--group", "pad", "--details"});
   CHECK(text.exit_code == 0);
@@ -102,13 +102,14 @@ TEST_CASE("a velocity fit hands slope and alpha on to predict") {
 TEST_CASE("fit --joint refuses what it cannot do, in one line") {
   const test::SweepExample example;
   const std::string run = example.folder.path("slow.csv");
-  check_refused({"fit", run, "--joint", example.manifest}, "REC does not go with --joint");
+  check_refused({"fit", run, "--joint", example.manifest}, "REC cannot be combined with --joint");
   check_refused({"fit", "--joint", example.folder.path("none.csv")}, "none.csv");
-  check_refused({"fit", "--joint", "--tier", "velocity", example.manifest}, "right behind it");
+  check_refused({"fit", "--joint", "--tier", "velocity", example.manifest}, "must be followed by");
   check_refused({"fit", "--joint", example.manifest, "--group", "nobody"}, "nobody");
   check_refused({"fit", "--joint", example.manifest, "--only", "slow,nobody"}, "nobody");
-  check_refused({"fit", "--joint", example.manifest, "--speed", "1"}, "--speed does not go with --joint");
-  check_refused({"fit", "--joint", example.manifest, "--drive-period", "1"}, "--drive-period does not go with --joint");
+  check_refused({"fit", "--joint", example.manifest, "--speed", "1"}, "--speed cannot be combined with --joint");
+  check_refused({"fit", "--joint", example.manifest, "--drive-period", "1"},
+                "--drive-period cannot be combined with --joint");
   check_refused({"fit", "--joint", example.manifest, "--tier", "sawtooth"}, "no tier of a joint fit");
   check_refused({"fit", run, "--speed", "20mm/s", "--group", "pad"}, "--group");
   check_refused({"fit", "--joint", example.manifest, "--group", "contact"}, "spring");
@@ -127,7 +128,7 @@ TEST_CASE("a sweep's unreadable recording is refused in the words of the manifes
   CHECK_THAT(result.err, Catch::Contains("the manifest's force_column") && !Catch::Contains("--force-column"));
 }
 
-TEST_CASE("one recording is no sweep: the answer says that nothing was fitted together, and why") {
+TEST_CASE("one recording is not a sweep: the answer states that nothing was fitted together, and the reason") {
   const test::SweepExample example;
   const json document = example.fit({"--only", "slow"});
   CHECK(document["status"] == "undetermined");
@@ -138,7 +139,7 @@ TEST_CASE("one recording is no sweep: the answer says that nothing was fitted to
   check_refused({"predict", example.out, "--speeds", "0.1"}, "no parameters");
 }
 
-TEST_CASE("a joint fit gives the same bytes in every run, wherever its memory lies") {
+TEST_CASE("a joint fit gives the same bytes in every run, at any memory address") {
   const test::SweepExample example;
   const test::ProgramResult first = slipfit({"fit", "--joint", example.manifest, "--group", "pad", "--json"});
   REQUIRE(first.exit_code == 0);
@@ -147,7 +148,7 @@ TEST_CASE("a joint fit gives the same bytes in every run, wherever its memory li
   }
 }
 
-TEST_CASE("strokes of one recording are fitted together, alone and as a row of a batch") {
+TEST_CASE("strokes applies to one recording are fitted together, alone and as a row of a batch") {
   const test::TemporaryFolder folder;
   std::string text = "time [s],force [N]\n";
   for (int i = 0; i < 8000; ++i) {
@@ -171,7 +172,7 @@ TEST_CASE("strokes of one recording are fitted together, alone and as a row of a
   REQUIRE(analysis.exit_code == 0);
   CHECK(nlohmann::json::parse(analysis.out)["recordings"].size() == 2);
   test::check_refused({"fit", file, "--speed", "0.01", "--strokes", "--curve", folder.path("c.csv")},
-                      "of one recording");
+                      "applies to one recording");
   test::check_refused({"fit", file, "--speed", "0.01", "--strokes=up"}, "positive or negative");
 
   const std::string manifest = folder.file("runs.csv", "id,file,speed_m_per_s,strokes\nr1,run.csv,0.01,both\n");

@@ -21,12 +21,12 @@ std::string fit_text(const std::vector<std::string>& options) {
 
 }  // namespace
 
-TEST_CASE("a test that finds nothing says at which level nothing is proven") {
+TEST_CASE("a test without a finding states its level") {
   const std::string text = fit_text({"--speed", "10mm/s"});
-  CHECK_THAT(text, Contains("from begin to end: not proven at the 0.1 % level (p ") && !Contains("chance"));
+  CHECK_THAT(text, Contains("from start to end: not proven at the 0.1 % level (p ") && !Contains("chance"));
 }
 
-TEST_CASE("AICc is told with the model it is compared to, the sign in words and what it takes") {
+TEST_CASE("AICc is printed with the compared model, the sign in words and the threshold") {
   const std::string text = fit_text({"--speed", "10mm/s"});
   CHECK_THAT(text,
              Contains("lower than that of the undamped model: the added parameter is justified, which takes 10 lower"));
@@ -36,7 +36,7 @@ TEST_CASE("AICc is told with the model it is compared to, the sign in words and 
              Contains("requested by --tier; the data alone: a model with more parameters is justified"));
 }
 
-TEST_CASE("the residual is told as a multiple of the noise, and whether it looks like noise") {
+TEST_CASE("the residual is printed as a multiple of the noise, with its whiteness") {
   const std::string text = fit_text({"--speed", "10mm/s"});
   CHECK_THAT(text, Contains("0.99 times the noise (reduced chi2 0.98)"));
   CHECK_THAT(text, Contains("residuals: consistent with white noise (whiteness p 0.15, level 0.001)"));
@@ -47,11 +47,13 @@ TEST_CASE("forces without a stated zero are conditional, with the condition and 
   const std::string text = fit_text({"--speed", "10mm/s", "--report", folder.path("r.html")});
   const std::string condition = "assumes that the sensor reads 0 without force";
   CHECK_THAT(text, Contains("static friction F_s, kinetic friction F_k: " + condition) && Contains("--zero"));
-  CHECK_THAT(text, Contains("conditional: well determined if the assumption in its note holds"));
+  CHECK_THAT(text, Contains("conditional: determined if the assumption in its note holds"));
   const std::string page = test::content_of(folder.path("r.html"));
-  CHECK_THAT(page, Contains("<span class=\"status conditional\">conditional</span>: well determined if the assumption "
-                            "in its note holds"));
-  CHECK_THAT(page, !Contains("held at the stated value"));
+  CHECK_THAT(
+      page,
+      Contains(
+          "<span class=\"status conditional\">conditional</span>: determined if the assumption in its note holds"));
+  CHECK_THAT(page, !Contains("fixed at the stated value"));
   CHECK_THAT(fit_text({"--speed", "10mm/s", "--zero", "0"}), !Contains("reads 0 without force"));
 }
 

@@ -82,7 +82,7 @@ TEST_CASE("cycles do not count, recordings do") {
   CHECK(warns(compare(side_a, side_b), "scatter_of_one_side"));
 }
 
-TEST_CASE("what one side does not tell is null with a reason") {
+TEST_CASE("a quantity that one side lacks is null with a reason") {
   json bounded = document(1000.0);
   bounded["parameters"]["friction_difference_N"] = parameter(2.0, 0.5, "bounded");
   bounded["parameters"]["damping_ratio"] = parameter(0.1, 0.0, "fixed");
@@ -125,7 +125,7 @@ TEST_CASE("a recording that counts twice is said") {
   CHECK_FALSE(warns(compare({"a", {run}}, {"b", {fit_of(second)}}), "recording_repeated"));
 }
 
-TEST_CASE("the document of a comparison has the keys of its schema, and text and page say the same") {
+TEST_CASE("the document of a comparison has the keys of its schema, and text and page agree with it") {
   const Comparison comparison = compare({"dry", {fit_of(document(1000.0))}}, {"<wet>", {fit_of(document(1500.0))}});
   const json result = json::parse(to_json(comparison));
   CHECK(result["schema"] == "slipfit.compare/1");
@@ -140,10 +140,10 @@ TEST_CASE("the document of a comparison has the keys of its schema, and text and
   CHECK_THAT(to_text(comparison), Catch::Contains("A and B differ in 1 of 2 quantities: tangential stiffness k"));
   const std::string page = to_html(comparison, {});
   CHECK_THAT(page, Catch::Contains("differ in 1 of 2") && Catch::Contains("&lt;wet&gt;") &&
-                       Catch::Contains("Results of fits hold no traces") && !Catch::Contains("<wet>"));
+                       Catch::Contains("Results of fits contain no traces") && !Catch::Contains("<wet>"));
 }
 
-TEST_CASE("what is no fit document is refused") {
+TEST_CASE("a file that is not a fit document is refused") {
   for (const char* const text : {"", "{}", "[1]", "{\"schema\":\"slipfit.predict/1\"}"}) {
     CHECK(compared_fit(text).error().code == "bad_document");
   }

@@ -105,7 +105,7 @@ TEST_CASE("recordings that agree by chance, or at a bound, scatter by at least t
   CHECK_FALSE(by_scatter(exact({1.0, 1.0}), exact({1.0, 1.0})));
 }
 
-TEST_CASE("one recording beside repeats scatters as they do") {
+TEST_CASE("one recording against repeats is assumed to scatter as they do") {
   const auto pair = by_scatter(exact({1.0, 2.0, 3.0}), exact({2.5}));
   REQUIRE(pair);
   CHECK(pair->degrees_of_freedom == 2.0);

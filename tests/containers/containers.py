@@ -217,7 +217,7 @@ def check_limits(folder):
     """Sizes that an archive states, sheets, links, rows, nodes and repeated strings: refused by their limit, soon and without much memory."""
     cells = b"<row>" + b"<c><v>0</v></c>" * 20 + b"</row>"
     rows = lambda row, count: b"<worksheet><sheetData>" + row * count + b"</sheetData></worksheet>"
-    far_more = "unpacks to far more"
+    far_more = "decompresses to far more"
     files = {
         "stated.zip": (with_stated_size(padded(zipped("a.csv", b"time,force\n" + b"0,0\n" * (1 << 26)), 1 << 16)), far_more),
         "stated.xlsx": (with_stated_size(padded(workbook(rows(cells, 500000)), 1 << 16)), far_more),

@@ -22,7 +22,7 @@ TEST_CASE("the digest does not depend on the pieces in which the bytes come") {
   }
 }
 
-TEST_CASE("what is no regular file has no digest") {
+TEST_CASE("a file that is not regular has no digest") {
   CHECK_FALSE(slipfit::digest_of_file("/no/such/file"));
   CHECK_FALSE(slipfit::digest_of_file("/tmp"));
   CHECK_FALSE(slipfit::digest_of_file("/dev/null"));

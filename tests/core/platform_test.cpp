@@ -39,7 +39,7 @@ TEST_CASE("control groups limit the processors, those above a process's own too"
   CHECK(slipfit::platform::processors() >= 1);
 }
 
-TEST_CASE("a nameless file holds what is written to it") {
+TEST_CASE("a nameless file contains what is written to it") {
   const int file = slipfit::platform::open_nameless_file();
   REQUIRE(file >= 0);
   CHECK(::write(file, "abc", 3) == 3);

@@ -23,7 +23,7 @@ TEST_CASE("printable: what moves a terminal's cursor or reorders a line is escap
   CHECK(printable_lines("a\n\tb\r\u202e\n") == "a\n\tb\\r\\u202e\n");
 }
 
-TEST_CASE("printable: the neighbours of what is escaped stay") {
+TEST_CASE("printable: the neighbours of escaped characters remain") {
   for (const char* const text : {" ~", "\u00a0\u00ac\u00ae", "\u0606\u061b\u061d",
                                  "\u200a\u2010\u2027\u202f\u205f\u2065\u2070", "\ufff8\ufffc"}) {
     CHECK(printable(text) == text);

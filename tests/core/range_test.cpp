@@ -8,7 +8,7 @@
 
 using namespace slipfit;
 
-TEST_CASE("an interval that ends beyond every quantity is no finite interval") {
+TEST_CASE("an interval that ends outside every quantity is not finite") {
   // Fit documents with such numbers are refused: the program must not write them either.
   const Estimate estimate = within({2.0, 1.0, Interval{1e-3, 1.2e104}, {}}, kNotNegative);
   CHECK(estimate.value == 2.0);

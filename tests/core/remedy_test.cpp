@@ -16,7 +16,7 @@ TEST_CASE("a remedy is what the message asks for") {
         "expected a number with a unit");
 }
 
-TEST_CASE("where a message asks for nothing the table of errors says what to do") {
+TEST_CASE("the table of errors gives the remedy of a message without a request") {
   CHECK(remedy_of({"window_empty", "run7.csv: the window 50:60 s holds 0 samples; the clock runs from 0 to 2 s"}) ==
         "another --window");
   CHECK(remedy_of({"no_such_code", "run7.csv: nothing is known; the rest neither"}).empty());

@@ -214,7 +214,7 @@ TEST_CASE("a quantity is a number in SI or a number with a unit") {
   CHECK(parse_quantity("12 %", Dimension::Dimensionless).value() == Approx(0.12).epsilon(1e-15));
 }
 
-TEST_CASE("what is no finite number is refused as bad_number, a wrong unit behind it as unknown_unit") {
+TEST_CASE("a text that is not a finite number is refused as bad_number, a wrong unit after it as unknown_unit") {
   for (const std::string text :
        {"", "fast", "mm/s", "nan", "inf mm/s", "1e999", "0,5 mm/s", "--5", "+-5", "1e308 km/s"}) {
     CAPTURE(text);

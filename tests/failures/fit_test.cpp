@@ -19,7 +19,7 @@ void for_each_fit(const atlas::Factors& factors, const Check& check, std::uint64
     const atlas::Scene scene = atlas::make_scene(factors, seed);
     const slipfit::Analysis analysis = slipfit::analyze_and_fit(scene.recording);
     INFO("seed " << seed << " noise " << factors.noise << " hum " << factors.hum << " jitter " << factors.jitter
-                 << " samples a slip " << factors.samples_per_slip << " cycles " << factors.cycles << ": "
+                 << " samples per slip " << factors.samples_per_slip << " cycles " << factors.cycles << ": "
                  << analysis.motion_reason);
     check(analysis, scene);
   }

@@ -32,8 +32,8 @@ TEST_CASE("slipfit figures refuses a missing, wrong or unwritable --out in one l
   check_refused({"figures", "--out"}, "--out");
   check_refused({"figures", "--out", ""}, "--out");
   check_refused({"figures", "--out", file}, "is a file");
-  check_refused({"figures", "--out", file + "/figures"}, "cannot make the folder");
-  check_refused({"figures", "--out", folder.path("none/figures")}, "cannot make the folder");
+  check_refused({"figures", "--out", file + "/figures"}, "cannot create the folder");
+  check_refused({"figures", "--out", folder.path("none/figures")}, "cannot create the folder");
   check_refused({"figures", "extra", "--out", folder.path("x")}, "extra");
   CHECK(test::content_of(file) == "kept");
   CHECK(folder.names() == std::vector<std::string>{"file"});

@@ -67,7 +67,7 @@ TEST_CASE("an outline that reaches 0 or below stays closed on a logarithmic axis
   CHECK(std::distance(std::sregex_iterator(path.begin(), path.end(), number), std::sregex_iterator()) == 2 * 6);
 }
 
-TEST_CASE("pictures say which values are assumed") {
+TEST_CASE("pictures state which values are assumed") {
   for (const std::string figure : {"figure_4", "figure_5", "figure_6", "figure_8"}) {
     CAPTURE(figure);
     CHECK(has(test::figure_file(figure + ".svg"), "Assumed: "));
@@ -103,7 +103,7 @@ TEST_CASE("ticks are round numbers inside the axis") {
         " 10\u2076 2\u00D710\u2076 3\u00D710\u2076 4\u00D710\u2076");
 }
 
-TEST_CASE("the value at the right end of an axis stands inside the picture") {
+TEST_CASE("the value at the right end of an axis is inside the picture") {
   chart::Panel panel;
   panel.x = {"x", 1e-3, 1e7, chart::Scale::Logarithmic};
   const std::string svg = chart::to_svg({"", {}, {panel}});
@@ -149,7 +149,7 @@ TEST_CASE("axes of every width are drawn: finite, with a bounded number of diffe
   }
 }
 
-TEST_CASE("ticks of a narrow axis far from zero have the digits that tell them apart") {
+TEST_CASE("ticks of a narrow axis far from zero have enough digits to differ") {
   std::set<std::string> texts;
   const auto ticks = chart::ticks_of(chart::drawable({"time", 1e15, 1e15 + 20.0, chart::Scale::Linear}));
   for (const chart::Tick& tick : ticks) texts.insert(tick.text);

@@ -14,7 +14,7 @@ Scene few_samples(std::uint64_t seed) {
 
 }  // namespace
 
-TEST_CASE("intervals of few samples a slip hold zeta, F_s - F_k and w_n") {
+TEST_CASE("intervals of few samples per slip hold zeta, F_s - F_k and w_n") {
   int given = 0;
   int inside = 0;
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {

@@ -34,7 +34,7 @@ TEST_CASE("plain numbers are the ones of std::from_chars, bit for bit") {
   }
 }
 
-TEST_CASE("a plain number ends where its exponent does, and what is too large to be one is left to others") {
+TEST_CASE("a plain number ends after its exponent, and too large numbers are left to the general reader") {
   for (const std::string text : {"1.5e-3,2", "-0.019128045292843208,2", "12345678901234567890;", "1e5 N"}) {
     const Decimal decimal = read_decimal(text.c_str(), nullptr, '.');
     CAPTURE(text);

@@ -51,7 +51,7 @@ TEST_CASE("without a clock the displacement over the speed is the time, and is s
   const auto recording = read_ok(content, {}, at_speed(2e-3));
   CHECK(recording.size() == 100);
   CHECK(recording.duration_s() == Approx(0.495));
-  CHECK(says(recording, {"Time is column 1 'Standardweg [mm]' over the driving speed, t = x/V"}));
+  CHECK(says(recording, {"Time is column 1 'Standardweg [mm]' divided by the driving speed, t = x/V"}));
   CHECK(read_error(content, {}, at_speed(0.0)).code == "no_time_column");
 }
 

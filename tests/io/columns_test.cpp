@@ -69,7 +69,7 @@ TEST_CASE("the tangential force is found by its name") {
   }
 }
 
-TEST_CASE("a friction coefficient beside a normal force is a force") {
+TEST_CASE("a friction coefficient with a normal force is a force") {
   for (const std::string names :
        {"time,load [N],COF", "t,Fz,mu", "Zeit,Auflast,Reibwert", "time,Fn,Coefficient of friction ()"}) {
     CAPTURE(names);
@@ -81,7 +81,7 @@ TEST_CASE("a friction coefficient beside a normal force is a force") {
   }
 }
 
-TEST_CASE("a friction coefficient is taken where there is no tangential force") {
+TEST_CASE("a friction coefficient is read if there is no tangential force") {
   for (const std::string names : {"Time(s),Displ(microns),Friction,Effective_Normal_stress(MPa)", "t,x [mm],\xC2\xB5",
                                   "t,x [mm],\xB5 [-]", "time,laps,Friction coefficient", "time,speed,signal [1]"}) {
     CAPTURE(names);
@@ -131,9 +131,9 @@ TEST_CASE("without names the clock is the column that rises evenly, and only one
   CHECK(error.code == "ambiguous_force_column");
 }
 
-TEST_CASE("whole numbers that count by one are taken for seconds with the advice to give a sampling rate") {
+TEST_CASE("integers that count by one are read as seconds, with the advice to state a sampling rate") {
   const std::string content = "0,1.5\n1,3.5\n2,2.5\n3,4.5\n";
-  CHECK(says(read_ok(content), {"taken to be in s", "--sample-rate"}));
+  CHECK(says(read_ok(content), {"assumed to be in s", "--sample-rate"}));
   slipfit::ReadOptions options;
   options.sample_rate_Hz = 100.0;
   const auto recording = read_ok(content, options);

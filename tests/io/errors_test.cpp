@@ -28,7 +28,7 @@ TEST_CASE("each unusable content has its own error, in one line with the place")
       {"empty", "", "empty_file", "empty"},
       {"blank lines", "\n  \n\t\n", "empty_file", "blank"},
       {"binary", std::string("PK\x07\x04\0\0\0\x08", 8) + "abc", "binary_file", "not a text file"},
-      {"no archive", std::string("PK\x03\x04\0\0\0\x08", 8) + "abc", "damaged_container", "is cut off"},
+      {"no archive", std::string("PK\x03\x04\0\0\0\x08", 8) + "abc", "damaged_container", "is truncated"},
       {"no gzip", "\x1F\x8B stream", "damaged_container", "gzip"},
       {"no TDMS", "TDSm and nothing else", "damaged_container", "TDMS"},
       {"old workbook", "\xD0\xCF\x11\xE0\xA1\xB1\x1A\xE1 and more", "old_workbook", "save it as .xlsx"},
@@ -68,13 +68,13 @@ TEST_CASE("each impossible option has its own error") {
         "unknown_column");
   CHECK(code_of([](Options& o) { o.time_column = "9"; }, "no column '9'") == "unknown_column");
   CHECK(code_of([](Options& o) { o.force_column = "0"; }, "--force-column") == "unknown_column");
-  CHECK(code_of([](Options& o) { o.force_column = "state"; }, "holds text") == "column_not_numeric");
+  CHECK(code_of([](Options& o) { o.force_column = "state"; }, "contains text") == "column_not_numeric");
   CHECK(code_of([](Options& o) { o.force_unit = "mm"; }, "'mm'") == "unknown_unit");
   CHECK(code_of([](Options& o) { o.time_unit = "N"; }, "'N'") == "unknown_unit");
   CHECK(code_of([](Options& o) { o.window = {{2.0, 1.0}}; }, "2:1") == "bad_window");
   CHECK(code_of([](Options& o) { o.window = {{1.0, std::nan("")}}; }, "window") == "bad_window");
   CHECK(code_of([](Options& o) { o.window = {{10.0, 20.0}}; }, "the clock runs from 0 to 3 s") == "window_empty");
-  CHECK(code_of([](Options& o) { o.window = {{0.9, 1.1}}; }, "holds 1 sample;") == "window_empty");
+  CHECK(code_of([](Options& o) { o.window = {{0.9, 1.1}}; }, "contains 1 sample;") == "window_empty");
   CHECK(code_of([](Options& o) { o.sample_rate_Hz = -4.0; }, "-4") == "bad_sample_rate");
   CHECK(code_of(
             [](Options& o) {
@@ -90,7 +90,7 @@ TEST_CASE("each impossible option has its own error") {
             "both") == "conflicting_options");
 }
 
-TEST_CASE("a missing file, a folder and an unreadable file are told apart") {
+TEST_CASE("a missing file, a folder and an unreadable file have different errors") {
   const TempFile file("time,force\n0,1\n1,2\n");
   CHECK(read_path_error(file.path().parent_path() / "absent.csv").code == "file_not_found");
   CHECK(read_path_error(file.path().parent_path()).code == "is_directory");
@@ -109,14 +109,14 @@ TEST_CASE("a name with a line break keeps the message on one line") {
   CHECK_FALSE(contains(recording.error().message, "\n"));
 }
 
-TEST_CASE("a line beyond 16 MB is refused, not read past") {
+TEST_CASE("a line above 16 MB is refused and not read further") {
   const std::string content = "time,force\n0,1\n1,2\n2,1\n" + std::string(17 << 20, '7') + "\n";
   const auto error = read_error(content);
   CHECK(error.code == "line_too_long");
   CHECK(contains(error.message, "run7.csv:5:"));
 }
 
-TEST_CASE("a row of a million columns is told to be too long, not to hold no numbers") {
+TEST_CASE("a row of a million columns is reported as too long, not as lacking numbers") {
   std::string names = "time";
   std::string row = "0";
   for (int i = 0; i < 1000000; ++i) {

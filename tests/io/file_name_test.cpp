@@ -33,7 +33,7 @@ TEST_CASE("speed, load and group are read from the names that people give") {
   }
 }
 
-TEST_CASE("a draft has a row for each recording, and says what is none") {
+TEST_CASE("a draft has a row for each recording and lists the other files") {
   const TempFile first("time,Ft [N],Fz [N]\n0,1,2\n1,2,2\n2,1,2\n3,2,2\n", "pad_10mm_s_1.csv");
   const auto folder = first.path().parent_path();
   std::string steps = "Step,time,force,speed [mm/s]\n";

@@ -76,7 +76,7 @@ TEST_CASE("text in the place of a unit that is none is refused, with both option
   CHECK(force_of_one("Force (raw)", options) == 1e-3);
 }
 
-TEST_CASE("what stands in brackets and is a remark is no unit") {
+TEST_CASE("a remark in brackets is not a unit") {
   for (const std::string name :
        {"Force (left)", "Force (Channel 2)", "Force (filtered)", "Force (load cell)", "Force (2)", "Force (Dev1/ai0)",
         "Ft/Fn", "Force (measured at the left arm)", "Zeit (UTC)"}) {
@@ -114,7 +114,7 @@ TEST_CASE("a torque over the radius is the force") {
   CHECK(says(read_ok("time (s);Torque (Nmm)\n0;1\n1;2\n2;1\n", with_radius(0.02)), {"torque", "0.02 m"}));
 }
 
-TEST_CASE("a force is taken before a torque, and an energy is none") {
+TEST_CASE("a force is preferred to a torque, and an energy is not a force") {
   CHECK(copy(read_ok("time (s);Torque (N m);Ft (N)\n0;1;5\n1;2;6\n2;1;5\n").force()) ==
         std::vector<double>{5.0, 6.0, 5.0});
   CHECK(read_error("time (s);Arbeit (J)\n0;1\n1;2\n2;1\n").code == "no_force_column");

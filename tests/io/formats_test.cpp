@@ -151,14 +151,14 @@ TEST_CASE("units of the file are converted and said") {
   CHECK(says(recording, {"comma is the decimal sign"}));
 }
 
-TEST_CASE("units told by the user replace those of the file") {
+TEST_CASE("units stated by the user replace those of the file") {
   slipfit::ReadOptions options;
   options.time_unit = "ms";
   options.force_unit = "mN";
   const auto recording = read_ok(kPlain, options);
   CHECK(recording.time_s()[3] == Approx(1.5e-3).epsilon(1e-15));
   CHECK(recording.force()[3] == Approx(4e-3).epsilon(1e-15));
-  CHECK(says(recording, {"in mN (as told)"}));
+  CHECK(says(recording, {"in mN (as stated)"}));
 }
 
 TEST_CASE("a Latin-1 header gives a micro sign and names in UTF-8") {
@@ -193,10 +193,10 @@ TEST_CASE("without a time column the sampling rate is the clock, and a missing r
   CHECK(copy(recording.force()) == std::vector<double>{1.0, 2.0, 3.0, 4.0});
   CHECK(recording.provenance().rows_without_number == 1);
   CHECK(says(recording, {"2 lines", "skipped", "line 6"}));
-  CHECK(says(recording, {"4 samples a second"}));
+  CHECK(says(recording, {"4 samples per second"}));
 }
 
-TEST_CASE("a single column with a decimal comma below its name is not taken for two columns") {
+TEST_CASE("a single column with a decimal comma below its name is not read as two columns") {
   slipfit::ReadOptions options;
   options.sample_rate_Hz = 10.0;
   const auto recording = read_ok("Kraft [N]\n0,51\n0,73\n1,02\n", options);

@@ -55,7 +55,7 @@ TEST_CASE("a helper is found in the folders of SLIPFIT_HELPERS and reads the inp
   CHECK(ScriptAsHelper("echo =first; cat $1").output() == "first|input");
 }
 
-TEST_CASE("a helper that is not found is named, with the variable that says where it is") {
+TEST_CASE("a helper that is not found is named, with the variable for its folder") {
   const TempFile input("input");
   const Helper helper{"slipfit-none", {}, "a test", "none-dev"};
   CHECK_THROWS_WITH(slipfit::reading::run_helper(helper, slipfit::reading::open_plain(input.path()), "file"),
@@ -87,7 +87,7 @@ TEST_CASE("a helper inherits no ignored and no blocked signals") {
   CHECK((ignored & 0x7FFFFFFFU) == 0);  // signals 32 and 33 are glibc's own
 }
 
-TEST_CASE("a helper that another program stops says nothing about the file") {
+TEST_CASE("a helper that another program stops does not make the file damaged") {
   const slipfit::Error error = ScriptAsHelper("kill -TERM $$").error();
   CHECK(error.code == "not_readable");
   CHECK_THAT(error.message, Contains("read it again"));

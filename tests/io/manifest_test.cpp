@@ -48,7 +48,7 @@ TEST_CASE("ids, groups and files may be in any script") {
   CHECK(entries[1].group == "резина");
 }
 
-TEST_CASE("a manifest gives ids, files beside it and speeds, in its own order") {
+TEST_CASE("a manifest gives ids, files next to it and speeds, in its own order") {
   const TempFile file("id,file,speed_m_per_s\nb,runs/b.csv,0.02\na,/data/a.csv,1e-3\n", "runs.csv");
   const auto entries = entries_of(file.path());
   REQUIRE(entries.size() == 2);
@@ -63,7 +63,7 @@ TEST_CASE("a manifest gives ids, files beside it and speeds, in its own order") 
   CHECK(entries[1].row == 2);
 }
 
-TEST_CASE("every optional column of a manifest reaches the entry, and an empty cell says nothing") {
+TEST_CASE("every optional column of a manifest reaches the entry, and an empty cell is ignored") {
   const std::string columns =
       "normal_force_N,zero_force_N,speed_se_m_per_s,force_view,group,time_column,force_column,time_unit,force_unit,"
       "sample_rate_Hz,window_s,measured_spacing_m,sample,material,operator";
@@ -98,7 +98,7 @@ TEST_CASE("every optional column of a manifest reaches the entry, and an empty c
   CHECK(empty.conditions.labels.sample.empty());
 }
 
-TEST_CASE("a unit stands in the name of a manifest's column, or in the cell") {
+TEST_CASE("a unit is in the name of a column of the manifest, or in the cell") {
   const auto speed = [](const std::string& name, const std::string& cell) {
     return entries_in("id,file," + name + "\na,a.csv," + cell + "\n").at(0).conditions.speed_m_per_s;
   };
@@ -126,7 +126,7 @@ TEST_CASE("a manifest may have a byte order mark, CRLF, quotes, comments, blank 
   CHECK(entries_in("id\tfile\tgroup\tspeed [mm/s]\na\ta.csv\t\t1\n").at(0).group.empty());
 }
 
-TEST_CASE("a cell may be a rotation or a percentage, wherever radius and speed stand") {
+TEST_CASE("a cell may be a rotation or a percentage, in any order with radius and speed") {
   const auto entry = entries_in("id,file,speed_se,speed,radius_m\na,a.csv,1 %,60 rpm,0.01\n").at(0);
   CHECK(entry.conditions.speed_m_per_s == Approx(0.01 * 2.0 * 3.14159265358979323846).epsilon(1e-12));
   CHECK(entry.conditions.speed_standard_error_m_per_s.value() == Approx(0.01 * entry.conditions.speed_m_per_s));

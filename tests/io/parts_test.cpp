@@ -58,7 +58,7 @@ TEST_CASE("an export in blocks of steps is read without options: units, force, l
   CHECK_FALSE(warns(second, "several_steps"));
 }
 
-TEST_CASE("a unit that nobody knows neither hides the names nor refuses the file") {
+TEST_CASE("an unknown unit neither conceals the names nor refuses the file") {
   const auto recording = read_ok("T,Ff,Foo,Bar\nsec,g,blurb,mm\n0,1,3,4\n1,2,3,5\n2,1,3,6\n3,2,3,7\n");
   CHECK(says(recording, {"Force is column 2 'Ff', in g"}));
 }
@@ -119,7 +119,7 @@ TEST_CASE("rows, cells and a window take a part before the clock is judged") {
   where.where = {"4", "1.0"};
   CHECK(read_ok(text, where).size() == 40);
   where.where = {"phase", "idle"};
-  CHECK(contains(read_error(text, where).message, "where column 3 'phase' says 'idle'"));
+  CHECK(contains(read_error(text, where).message, "with 'idle' in column 3 'phase'"));
   rows.rows = {90, 95};
   CHECK(read_error(text, rows).code == "part_empty");
   rows.rows = {5, 5};
@@ -135,7 +135,7 @@ TEST_CASE("a window is cut from the step that was asked for") {
   CHECK(recording.time_s().front() == Approx(0.5));
 }
 
-TEST_CASE("a column of speeds stands in for the speed, or contradicts it") {
+TEST_CASE("a column of speeds replaces the stated speed, or contradicts it") {
   const auto text = [](const std::string& unit) {
     std::string rows = "time,force,Velocity [" + unit + "]\n";
     for (int i = 0; i < 100; ++i) {
@@ -155,7 +155,7 @@ TEST_CASE("a column of speeds stands in for the speed, or contradicts it") {
   CHECK(read_ok(text("rpm"), radius, at_speed(0.0)).conditions().speed_m_per_s == Approx(0.0634).epsilon(0.01));
 }
 
-TEST_CASE("a normal force that is stated stands; one of a column is named, by an option too") {
+TEST_CASE("a stated normal force takes precedence; a column is selected by its name or an option") {
   const std::string text = "time,Ff [N],A [N],B [g]\n0,1,10,100\n1,2,10,100\n2,1,10,100\n3,2,10,100\n";
   CHECK_FALSE(read_ok(text).conditions().normal_force_N);
   ReadOptions options;

@@ -79,7 +79,7 @@ TEST_CASE("of a crank only what moves at nearly full speed is a stroke, and anot
   CHECK(warns(wrong.value()[2].recording, "speed_differs_from_displacement"));
 }
 
-TEST_CASE("a file without strokes or segments says so") {
+TEST_CASE("a file without strokes or segments is refused with that reason") {
   const std::string plain = "time,force\n0,1\n1,2\n2,1\n3,2\n";
   CHECK(pieces_of(plain, Pieces::Strokes).error().code == "no_strokes");
   CHECK(pieces_of(plain, Pieces::Segments).error().code == "no_segments");
@@ -130,7 +130,7 @@ TEST_CASE("points between thousands belong to a number where the comma is the de
   CHECK(pointed.force()[0] == 2.002);
 }
 
-TEST_CASE("a comma that parts columns and decimals is told as just that") {
+TEST_CASE("a comma that is both separator and decimal sign is reported as such") {
   CHECK(read_error("time,force\n0,001,0,512\n0,002,0,613\n0,003,0,714\n").code == "comma_twice");
   CHECK(read_error("0,001,0,51\n0,002,0,61\n0,003,0,71\n").code == "comma_twice");
   CHECK(read_ok("time,force\n0,1\n1,2\n2,3\n").size() == 3);

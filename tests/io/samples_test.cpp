@@ -47,7 +47,7 @@ TEST_CASE("samples are read as a file of two columns would be") {
   CHECK_FALSE(recording.provenance().input_digest);
 }
 
-TEST_CASE("samples without times have the clock of the sampling rate, and a part can be taken") {
+TEST_CASE("samples without times have the clock of the sampling rate, and a part can be read") {
   ReadOptions options;
   options.sample_rate_Hz = 4.0;
   options.window = TimeWindow{0.5, 1.5};
@@ -82,7 +82,7 @@ TEST_CASE("samples that are no recording are refused") {
   CHECK(code_of({"a", {0, 1, 2}, {1, 2, 3}}, options) == "unknown_unit");
 }
 
-TEST_CASE("cells say what the columns of a manifest say") {
+TEST_CASE("cells have the meaning of the columns of a manifest") {
   const std::vector<NamedCell> cells{{"speed_se", "1 %"}, {"speed", "60 rpm"},       {"radius", "10 mm"},
                                      {"mass", "30 g"},    {"normal_force", "41 gf"}, {"window", "1:2"},
                                      {"where", "Step=3"}};
@@ -99,7 +99,7 @@ TEST_CASE("cells say what the columns of a manifest say") {
   CHECK(entry.value().options.where->value == "3");
 }
 
-TEST_CASE("cells that say nothing are refused by their column") {
+TEST_CASE("empty cells are refused with their column") {
   CHECK(code_of_cells({{"colour", "red"}}) == "unknown_option");
   CHECK(code_of_cells({{"speed", "fast"}}) == "bad_number");
   CHECK(code_of_cells({{"speed", "-1"}}) == "out_of_range");

@@ -45,7 +45,7 @@ std::string text_of(const std::vector<double>& force) {
 
 }  // namespace
 
-TEST_CASE("strokes are told from stick-slip by where the force dwells") {
+TEST_CASE("strokes are distinguished from stick-slip by the levels at which the force remains") {
   std::mt19937 random(7);
   std::normal_distribution<double> noise(0.0, 1.0);
   const auto saw = [](double t, double cycles) { return fraction(t * cycles); };

@@ -8,7 +8,7 @@ using slipfit::reading::classify_unit;
 using slipfit::reading::read_name;
 using slipfit::reading::UnitClass;
 
-TEST_CASE("units of columns beside the force are recognised as units") {
+TEST_CASE("units of columns other than the force are recognised as units") {
   for (const std::string unit : {"dB",          "dB(A)",     "lux",    "mm^3", "mm\xC2\xB3",   "%RH",  "% rF",   "Ohm",
                                  "k\xCE\xA9",   "sccm",      "mm/s^2", "m/s2", "\xC2\xB0\x43", "degC", "V",      "mV/V",
                                  "Nm/s",        "mm3/(N m)", "N/mm2",  "MPa",  "mbar",         "psi",  "counts", "a.u.",
@@ -18,7 +18,7 @@ TEST_CASE("units of columns beside the force are recognised as units") {
   }
 }
 
-TEST_CASE("units of clocks, ways, forces and numbers are told apart, capitals or not") {
+TEST_CASE("units of time, length, force and number are distinguished, with and without capitals") {
   struct Known {
     std::string unit;
     UnitClass unit_class;

@@ -135,7 +135,7 @@ TEST_CASE("a force of the other sign is the same recording") {
   test::check_same(analyse_text(plain(sliding), scene.conditions), analyse_text(plain(turned), scene.conditions));
 }
 
-TEST_CASE("a constant added to the force is taken off again by a known zero") {
+TEST_CASE("a known zero removes a constant added to the force") {
   const Scene scene = test::random_scene(GENERATE(range(kFirstSeed, kLastSeed + 1)));
   const double zero_N = GENERATE(0.5, -3.0, 100.0);
   CAPTURE(scene.described, zero_N);

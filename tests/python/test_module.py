@@ -79,8 +79,8 @@ def test_a_remedy_is_what_to_do():
 
 
 WORDS = {
-    "give the driving speed, for example --speed 10mm/s (no column tells it)": 'give the driving speed, for example speed="10mm/s" (no column tells it)',
-    "of another unit; give --speed 0.01, or correct": "of another unit; give speed=0.01, or correct",
+    "give the driving speed, for example --speed 10mm/s (no column contains it)": 'give the driving speed, for example speed="10mm/s" (no column contains it)',
+    "suggests another unit; give --speed 0.01, or correct": "suggests another unit; give speed=0.01, or correct",
     "(--drift sensor or --drift friction states which)": '(drift="sensor" or drift="friction" states which)',
     "state its reading with --zero": "state its reading with zero=",
     "--tier velocity needs a speed sweep (--joint): one": 'tier="velocity" needs a speed sweep (several recordings): one',

@@ -42,7 +42,7 @@ TEST_CASE("a batch's page has a row a recording, sortable by value, with a link 
   CHECK_THAT(page, Contains("no_force_column"));
 }
 
-TEST_CASE("a batch's page says of F_s - F_k and of the damping ratio what they are") {
+TEST_CASE("the page of a batch shows the status of F_s - F_k and of the damping ratio") {
   slipfit::BatchPageRow shown = row("run");
   shown.quantities[kForceDifference].estimate = {1.25, 1e-9, slipfit::Interval{1.249999998, 1.250000002}, {}};
   shown.quantities[kForceDifference].status = "conditional";
@@ -60,7 +60,7 @@ TEST_CASE("a batch's page keeps text from outside text") {
   CHECK_THAT(to_html(batch), !Contains("<script>alert") && !Contains("\"><script>"));
 }
 
-TEST_CASE("what is no fit document is refused, what a document leaves out is a dash") {
+TEST_CASE("a file that is not a fit document is refused, and a missing quantity is a dash") {
   for (const char* line :
        {"", "{", "[]", "null", "{\"schema\":1}", "{\"schema\":\"slipfit.predict/1\",\"id\":\"a\"}"}) {
     CAPTURE(line);
@@ -84,7 +84,7 @@ TEST_CASE("a group is counted on its own and stays out of the distributions") {
   CHECK_THAT(page, !Contains("<h2>Distributions</h2>"));  // of five recordings at least
 }
 
-TEST_CASE("a distribution says what a logarithmic axis cannot show") {
+TEST_CASE("a distribution states the values that a logarithmic axis cannot show") {
   slipfit::BatchPage batch{"batch", {7, row("run")}, {}};
   for (slipfit::BatchPageRow& each : batch.rows) each.quantities[kDampingRatio].estimate.value = 0.05;
   CHECK_THAT(to_html(batch), Contains(">damping ratio [-]<"));
@@ -93,7 +93,7 @@ TEST_CASE("a distribution says what a logarithmic axis cannot show") {
   CHECK_THAT(to_html(batch), Contains(">damping ratio [-], 2 at zero not drawn<"));
 }
 
-TEST_CASE("a long table lays out its first rows at once, keeps more for the script, and says what it leaves out") {
+TEST_CASE("a long table shows its first rows at once, keeps more for the script, and states what it leaves out") {
   const slipfit::BatchPage batch{"batch", {10001, row("run")}, {10002, {"bad", "empty", "no data"}}};
   const std::string page = to_html(batch);
   const auto rows_before = [&page](const char* what) {

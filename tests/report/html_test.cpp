@@ -69,7 +69,7 @@ nlohmann::json trace_data_in(const std::string& page) {
 
 }  // namespace
 
-TEST_CASE("the page says the kind of motion in a sentence and each parameter's status in words") {
+TEST_CASE("the page states the kind of motion in a sentence and the status of each parameter") {
   const slipfit::Recording recording = test::small_recording();
   const std::string page = page_of(recording, test::full_analysis());
   CHECK_THAT(page,
@@ -77,7 +77,8 @@ TEST_CASE("the page says the kind of motion in a sentence and each parameter's s
   const std::string table = section(page, "parameters");
   CHECK_THAT(table, Contains("1002.3") && Contains("[999.9, 1004.8]"));
   CHECK_THAT(table, Contains("only an interval is known") && Contains("the data do not determine it") &&
-                        Contains("held at the stated value") && Contains("needs <code class=\"option\">--zero</code>"));
+                        Contains("fixed at the stated value") &&
+                        Contains("needs <code class=\"option\">--zero</code>"));
   CHECK_THAT(section(page, "repeat"),
              Contains("slipfit fit run.csv") && Contains("xxh128:06b05ab6733a618578af5f94892f3950"));
 }
@@ -117,7 +118,7 @@ TEST_CASE("steady sliding: words in place of cycles, parameters and pattern") {
     CAPTURE(title);
     CHECK_THAT(absent, !Contains("<svg") && Contains(std::string("<dt>") + title));
   }
-  CHECK_THAT(section(page, "parameters"), Contains("this recording shows none") && !Contains("<table"));
+  CHECK_THAT(section(page, "parameters"), Contains("this recording does not show") && !Contains("<table"));
   CHECK_FALSE(trace_data_in(page).contains("residual_levels"));
 }
 
@@ -135,7 +136,7 @@ TEST_CASE("what the fit does not know is said in words, with the reason") {
   const std::string page = page_of(recording, analysis);
   const std::string absent = section(page, "absent");
   CHECK_THAT(absent, Contains("The damping ratio is not known: the slip is not resolved."));
-  CHECK_THAT(absent, Contains("The place on the map is not known: needs ζ"));
+  CHECK_THAT(absent, Contains("The position on the map is unknown: needs ζ"));
   CHECK_THAT(absent, Contains("No prediction for other speeds: needs ζ"));
   CHECK_THAT(page, Contains("<dt>damping ratio</dt><dd>not known</dd>"));
 }
@@ -152,7 +153,7 @@ TEST_CASE("peaks and troughs are not drawn against the damping where the sensor 
                        .value(),
                    analysis);
   };
-  const std::string reason = "average or lag blunts peaks and troughs";
+  const std::string reason = "Averaging or lag of the sensor reduces peaks and troughs";
   CHECK_THAT(page_with({}), Contains("<svg class=\"chart\" id=\"pairs\"") && !Contains(reason));
   CHECK_THAT(page_with(1000.0), !Contains(reason));  // w_n tau = 0.03: the peak is 0.05 % too low
   CHECK_THAT(page_with(100.0), Contains(reason));    // 0.32: 5 %
@@ -256,7 +257,7 @@ TEST_CASE("each chart names its axes and series, and the page has a script to sa
   CHECK_THAT(page, Contains("Copy table"));
 }
 
-TEST_CASE("coefficients of friction and what the standards ask stand on the page") {
+TEST_CASE("the page shows coefficients of friction and the requirements of the standards") {
   slipfit::Analysis analysis = test::full_analysis();
   analysis.coefficients.emplace();
   analysis.coefficients->static_first_peak = {0.51, 0.01, slipfit::Interval{0.49, 0.53}, {}};

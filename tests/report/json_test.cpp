@@ -19,7 +19,7 @@ json document_of(const slipfit::Recording& recording, const slipfit::Analysis& a
 
 }  // namespace
 
-TEST_CASE("what goes into the document comes out with every bit") {
+TEST_CASE("numbers in the document are read back with every bit") {
   auto analysis = test::full_analysis();
   const double awkward = 0.1 + 0.2;
   analysis.fit->parameters[0].estimate.value = awkward;
@@ -94,7 +94,7 @@ TEST_CASE("a friction coefficient is never given as a force") {
   CHECK_FALSE(document_of(test::small_recording(), test::full_analysis())["cycles"].contains("coefficient"));
 }
 
-TEST_CASE("the warnings stand in the document in their order") {
+TEST_CASE("the document lists the warnings in their order") {
   const json warnings = document_of(test::small_recording(), test::full_analysis())["warnings"];
   REQUIRE(warnings.size() == 3);
   CHECK(warnings[0]["code"] == "rows_left_out");
@@ -108,7 +108,7 @@ TEST_CASE("the reader's warnings are among those of the analysis") {
   CHECK(std::ranges::count(warnings, "rows_left_out", &slipfit::Warning::code) == 1);
 }
 
-TEST_CASE("the id is the file's name without its ending, or what the caller says") {
+TEST_CASE("the id is the file name without its ending, or the one that the caller states") {
   slipfit::JsonOptions options;
   CHECK(document_of(test::small_recording(), {}, options)["id"] == "run");
   options.id = "mine";
@@ -134,7 +134,7 @@ TEST_CASE("timing is there only when asked for, and without it the bytes are the
   CHECK(to_json(test::small_recording(), analysis) == before);
 }
 
-TEST_CASE("the keys stand in the order of the interface") {
+TEST_CASE("the keys are in the order of the interface") {
   const auto document = nlohmann::ordered_json::parse(to_json(test::small_recording(), test::full_analysis()));
   std::vector<std::string> keys;
   for (const auto& [key, value] : document.items()) keys.push_back(key);

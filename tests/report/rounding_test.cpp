@@ -31,7 +31,7 @@ TEST_CASE("very large and very small numbers are scientific") {
   CHECK(rounded(1.0, 1e-40) == "1.00000000");
 }
 
-TEST_CASE("what is not finite is not written as a number") {
+TEST_CASE("infinite numbers and NaN are not written as numbers") {
   CHECK(rounded(std::numeric_limits<double>::quiet_NaN(), 1.0) == "-");
   CHECK(slipfit::with_error({}) == "-");
   CHECK(estimate_row(slipfit::Estimate{}, "").value == "-");

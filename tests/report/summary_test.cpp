@@ -36,7 +36,7 @@ TEST_CASE("the summary shows values with units, intervals without a value, and n
   CHECK_THAT(text, Contains("consistent with white noise") && !Contains("1.50"));
 }
 
-TEST_CASE("a summary is one screen, however much there is to say") {
+TEST_CASE("a summary is at most one screen") {
   slipfit::Analysis analysis = test::full_analysis();
   const std::string words = "a long explanation with many words that a reader of the first screen does not need; ";
   for (slipfit::Parameter& parameter : analysis.fit->parameters) {

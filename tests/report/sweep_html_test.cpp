@@ -83,7 +83,7 @@ TEST_CASE("the chart of spacing over speed shows where stick-slip ends, with its
   CHECK_THAT(sweep.page(), Contains("stick-slip ends, 95 %"));
 }
 
-TEST_CASE("the band of the critical speed ends with the axis, and there is none where the speed is beyond it") {
+TEST_CASE("the band of the critical speed ends with the axis, and is absent if the speed is outside") {
   Sweep sweep;
   sweep.prediction->critical_speed_m_per_s = known(0.3, 0.001, 50.0);
   const html::Figure figure = sweep.spacing_figure();
@@ -120,7 +120,7 @@ TEST_CASE("the band over speed ends where an interval is unknown, and begins aga
   CHECK_FALSE(std::isfinite(line.points[4].y));
 }
 
-TEST_CASE("the axis of spacing over speed holds the intervals, unless they reach far beyond the values") {
+TEST_CASE("the axis of spacing against speed includes the intervals unless they are much wider than the values") {
   Sweep sweep;
   sweep.prediction->rows.back().periodic_displacement_m = known(0.0018, 0.0009, 0.0036);
   chart::Panel panel = sweep.spacing_figure().chart->panels.at(0);
@@ -160,7 +160,7 @@ TEST_CASE("the recordings of a large sweep are drawn in pictures that fit on a p
   CHECK(figures[1].chart->panels.size() == 2);
 }
 
-TEST_CASE("the page of a sweep without a joint fit says why, and shows each recording as it is") {
+TEST_CASE("the page of a sweep without a joint fit states the reason and shows each recording") {
   Sweep sweep;
   sweep.analysis.fit.reset();
   sweep.analysis.fit_reason = "1 with stick-slip cycles, 0 sliding steadily, 1 left out";

@@ -56,14 +56,14 @@ TEST_CASE("correlated residuals are named, and a probability of 0 is given as a 
              Contains("neighbouring residuals are correlated, so the model misses a pattern (whiteness p below 1e-6"));
 }
 
-TEST_CASE("both frequencies are told") {
+TEST_CASE("both frequencies are printed") {
   const std::string text = to_text(test::small_recording(), test::full_analysis());
   CHECK_THAT(line_with(text, "by FFT"), Contains("5.430 ± 0.020 Hz"));
   CHECK_THAT(line_with(text, "by counting slips"), Contains("5.432 ± 0.012 Hz"));
   CHECK_THAT(text, Contains("mains 50 Hz"));
 }
 
-TEST_CASE("measured and predicted spacing stand in blocks of their own") {
+TEST_CASE("measured and predicted spacing are in separate blocks") {
   const std::string text = to_text(test::small_recording(), test::full_analysis());
   const std::size_t measured = text.find("Spacing, measured (V/f)");
   const std::size_t spacing = text.find("pattern spacing");
@@ -89,7 +89,7 @@ TEST_CASE("where there is no stick-slip the model's numbers are not shown, where
   CHECK_THAT(steady, Contains("steady sliding") && !Contains("tangential stiffness") && !Contains("Predicted"));
   analysis.motion = slipfit::MotionClass::Undetermined;
   const std::string doubtful = to_text(test::small_recording(), analysis);
-  CHECK_THAT(doubtful, Contains("not to rely on") && Contains("tangential stiffness") && !Contains("Predicted"));
+  CHECK_THAT(doubtful, Contains("unreliable") && Contains("tangential stiffness") && !Contains("Predicted"));
 }
 
 TEST_CASE("a friction coefficient is shown without newtons") {
@@ -119,7 +119,7 @@ TEST_CASE("the curve has a row for each sample, empty where the fit does not rea
   CHECK(curve_to_csv(coefficient, {}).rfind("time_s,force_coefficient,", 0) == 0);
 }
 
-TEST_CASE("a point of the curve beyond the recording, or not finite, is left out") {
+TEST_CASE("a point of the curve outside the recording, or not finite, is left out") {
   auto analysis = test::full_analysis();
   analysis.fit->curve = {{1000, 1.0}, {0, std::numeric_limits<double>::quiet_NaN()}};
   const std::string csv = curve_to_csv(test::small_recording(), analysis);
@@ -132,7 +132,7 @@ TEST_CASE("a trace is written with every bit and a comment of one line") {
         "# made\\nhere\ntime_s,force_N\n0,0.3333333333333333\n0.30000000000000004,-2\n");
 }
 
-TEST_CASE("run-up and ring-down are told where they are known") {
+TEST_CASE("run-up and ring-down are printed if they are known") {
   auto analysis = test::full_analysis();
   CHECK_THAT(to_text(test::small_recording(), analysis), !Contains("Before and after the sliding"));
   analysis.transients.breakaway_force = {5.25, 0.05, slipfit::Interval{5.15, 5.35}, ""};

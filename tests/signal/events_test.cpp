@@ -95,7 +95,7 @@ TEST_CASE("run-up and release are no part of the sliding stretch") {
   CHECK(static_cast<double>(found.sliding_end) == Approx(end).margin(1000));
 }
 
-TEST_CASE("a pause splits the sliding; the longer part is taken") {
+TEST_CASE("a pause splits the sliding, and the longer part is analysed") {
   traces::Generator generator(6);
   Scene scene = saw(generator);
   for (std::size_t i = 12000; i < 16000; ++i) scene.force[i] = scene.force[11999];

@@ -68,7 +68,7 @@ TEST_CASE("scattering periods: the error is the scatter over the root of the cyc
   }
 }
 
-TEST_CASE("few cycles know their frequency less well and say so") {
+TEST_CASE("few cycles have a larger standard error of the frequency") {
   const Coverage result = coverage({1.13, 0.01, 0.03}, 5000, 0.03, 60);  // 5.6 cycles
   CHECK(result.found >= 57);
   CHECK(result.within >= 46);

@@ -40,7 +40,7 @@ TEST_CASE("a sine is found from 5 cycles on, with one harmonic") {
   }
 }
 
-TEST_CASE("slow wander larger than the drop does not hide the saw-tooth") {
+TEST_CASE("slow wander larger than the drop does not conceal the sawtooth") {
   traces::Generator generator(7);
   const std::vector<double> time_s = traces::clock(20000, 1000.0);
   std::vector<double> force = traces::saw_tooth({2.63, 0.02, 0.03}, time_s, generator);
@@ -168,7 +168,7 @@ TEST_CASE("scattering periods: no octave error, with and without a hint") {
   }
 }
 
-TEST_CASE("a hint decides between octaves and does not hide a disagreement") {
+TEST_CASE("a hint decides between octaves and does not conceal a disagreement") {
   // Every second drop is larger: the pattern repeats at half of the slip frequency.
   traces::Generator generator(12);
   const std::vector<double> time_s = traces::clock(20000, 1000.0);
@@ -184,7 +184,7 @@ TEST_CASE("a hint decides between octaves and does not hide a disagreement") {
   CHECK(*elsewhere.value_Hz == Approx(4.0).epsilon(0.001));
 }
 
-TEST_CASE("few samples a slip: harmonics from beyond the Nyquist frequency do not make a sub-harmonic") {
+TEST_CASE("few samples per slip: aliased harmonics do not make a subharmonic") {
   for (const double samples_a_period : {7.4, 16.54, 23.47, 40.52}) {
     const double f = 1000.0 / samples_a_period;
     const auto found = find(noisy_saw_tooth({f, 0.0, 0.0}, 3000, 0.01, 14));
@@ -194,7 +194,7 @@ TEST_CASE("few samples a slip: harmonics from beyond the Nyquist frequency do no
   }
 }
 
-TEST_CASE("impulses at random do not hide the saw-tooth") {
+TEST_CASE("random impulses do not conceal the sawtooth") {
   traces::Generator generator(15);
   const std::vector<double> time_s = traces::clock(20000, 1000.0);
   std::vector<double> force = traces::saw_tooth({1.37, 0.01, 0.03}, time_s, generator);

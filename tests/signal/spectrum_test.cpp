@@ -102,7 +102,7 @@ TEST_CASE("printed decimals do not make a clock uneven, a gap does") {
   CHECK_FALSE(traces::recording(time_s, force).clock_is_even());
 }
 
-TEST_CASE("thinning keeps ramps and takes off what is too fast for the new clock") {
+TEST_CASE("decimation keeps ramps and removes frequencies above the new Nyquist frequency") {
   std::vector<double> ramp(1000);
   for (std::size_t i = 0; i < ramp.size(); ++i) ramp[i] = 5.0 + 2.0 * static_cast<double>(i);
   const std::vector<double> thinned = signal::thin(ramp, 8);

@@ -23,7 +23,7 @@ TEST_CASE("E_n takes the 95 % reach of both spacings", "[surface]") {
   CHECK_THAT(compare_spacings(known(100e-6, 3e-6), known(104e-6, 4e-6)).verdict, Catch::StartsWith("agrees"));
 }
 
-TEST_CASE("a pattern of every second slip is told from one that has nothing to do with the slips", "[surface]") {
+TEST_CASE("a pattern of every second slip is distinguished from one without relation to the slips", "[surface]") {
   CHECK_THAT(compare_spacings(known(100e-6, 2e-6), known(201e-6, 3e-6)).verdict, Catch::Contains("2 times as coarse"));
   CHECK_THAT(compare_spacings(known(100e-6, 2e-6), known(33.5e-6, 0.5e-6)).verdict, Catch::Contains("3 times as fine"));
   CHECK_THAT(compare_spacings(known(100e-6, 2e-6), known(150e-6, 3e-6)).verdict, Catch::StartsWith("no relation"));

@@ -127,7 +127,7 @@ TEST_CASE("half of a wave as long as the cut-off passes the Gaussian filter of I
   CHECK(apart < 2e-3);
 }
 
-TEST_CASE("the form of a bent and tilted specimen is taken off, and nothing else", "[surface]") {
+TEST_CASE("the form of a bent and tilted specimen is removed, and nothing else", "[surface]") {
   std::vector<double> heights;
   for (int i = 0; i < 500; ++i) heights.push_back(3.0 + 0.1 * i - 2e-4 * i * i);
   for (const double rest : slipfit::surface::without_form(heights)) CHECK(std::abs(rest) < 1e-9);
@@ -142,7 +142,7 @@ TEST_CASE("RSm of triangles is their width", "[surface]") {
   CHECK(slipfit::surface::standard_cutoff_m(60e-6) == 250e-6);
 }
 
-TEST_CASE("the spacing of regular and of scattering ridges stands in its interval", "[surface]") {
+TEST_CASE("the intervals contain the spacing of regular and of scattering ridges", "[surface]") {
   // Each profile holds with 95 %: of 60 fewer than 52 is beyond three standard deviations.
   int held = 0;
   int answered = 0;
@@ -158,7 +158,7 @@ TEST_CASE("the spacing of regular and of scattering ridges stands in its interva
   CHECK(held >= 0.87 * answered);
 }
 
-TEST_CASE("regular ridges have a sharp spacing, scattering ones say by how much", "[surface]") {
+TEST_CASE("regular ridges have a narrow interval, scattering ridges a wide one", "[surface]") {
   const Surface regular = measured(test::ridged_profile({40.0, 0.0, 0.05, 50.0}, 1));
   CHECK(regular.status == SurfaceStatus::Periodic);
   CHECK(half_width(regular.spacing_m) < 0.005);
@@ -202,7 +202,7 @@ TEST_CASE("a coarse and a fine pattern are both reported", "[surface]") {
   CHECK_FALSE(measured(coarse).fine_spacing_m.value);
 }
 
-TEST_CASE("feed marks of turning have their spacing, and it is said what would tell them", "[surface]") {
+TEST_CASE("feed marks of turning have their spacing, and a warning explains how to distinguish them", "[surface]") {
   std::mt19937 generator(5);
   std::normal_distribution<double> normal;
   const Surface surface = measured(test::profile_of(3000, [&](std::size_t i) {
@@ -212,7 +212,7 @@ TEST_CASE("feed marks of turning have their spacing, and it is said what would t
   CHECK(holds(surface.spacing_m, 62.5e-6));
   REQUIRE(!surface.warnings.empty());
   CHECK(surface.warnings.front().code == "origin_not_known");
-  CHECK(surface.warnings.front().message.find("same spacing beside the track") != std::string::npos);
+  CHECK(surface.warnings.front().message.find("same spacing outside the track") != std::string::npos);
 }
 
 TEST_CASE("waves as even as the ridges but far lower are not the pattern", "[surface]") {
@@ -285,7 +285,7 @@ TEST_CASE("holes up to a tenth are bridged and counted, more are refused", "[sur
   CHECK(code_of(profile) == "too_many_holes");
 }
 
-TEST_CASE("profiles that hold no pattern that could be told are refused", "[surface]") {
+TEST_CASE("profiles without a detectable pattern are refused", "[surface]") {
   CHECK(code_of(test::profile_of(500, [](std::size_t) { return 2e-6; })) == "constant_profile");
   CHECK(code_of(test::profile_of(20, [](std::size_t i) { return 1e-6 * static_cast<double>(i % 4); })) ==
         "too_few_points");

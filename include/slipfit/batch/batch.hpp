@@ -18,17 +18,17 @@ namespace slipfit {
 /// folder_in_use, folder_of_another_batch, results_present, manifest_changed, not_a_page, cannot_write.
 Result<BatchOutcome> run_batch(const BatchOptions& options, const BatchHooks& hooks = {});
 
-/// Puts the finished shards of one batch together, in the manifest's order: the files that one machine would have
+/// Merges the finished shards of one batch, in the order of the manifest, into the files that one machine would have
 /// written. The progress counts their recordings. Errors: not_a_batch, not_finished, not_as_written, shards_differ,
 /// shards_missing, folder_in_use, folder_of_another_batch, cannot_write.
 Result<BatchProgress> merge_batches(const std::vector<std::filesystem::path>& shards,
                                     const std::filesystem::path& folder);
 
-/// The names of summary.csv but for `row`, as a line of CSV.
+/// Returns the column names of summary.csv, except `row`, as a line of CSV.
 std::string summary_columns();
 
-/// The row of summary.csv of a fit document, as a line of CSV without `row`; group and file are those of its recording.
-/// `name`: what messages call the document. Errors: those of check_fit_document.
+/// Returns the row of summary.csv for a fit document, as a line of CSV without `row`; group and file are those of its
+/// recording. Messages call the document `name`. Errors: those of check_fit_document.
 Result<std::string> summary_row(const std::string& document, const std::string& name);
 
 }  // namespace slipfit

@@ -13,31 +13,31 @@
 
 namespace slipfit {
 
-/// The part of a manifest that one machine takes: `index` of `count`, from 1. Parts are balanced by file size.
+/// A part of a manifest that one machine fits: `index` of `count`, from 1. Parts are balanced by file size.
 struct Shard {
   std::size_t index = 1;
   std::size_t count = 1;
 };
 
-/// A page of the batch, and in the folder `recordings` beside it one of each recording and group (docs/report.md). A
-/// shard writes the latter alone: shards may share the folder.
+/// The pages of a batch: one of the batch, and one of each recording and group in the folder `recordings` next to it
+/// (docs/report.md). A shard writes only the latter, so that shards may share the folder.
 struct BatchReport {
   std::filesystem::path file;  ///< its folder is made where it is missing
   std::string command_line;    ///< shown on the pages: how to repeat them
 };
 
-/// What a batch keeps of a recording or a group.
+/// The results of a recording or a group that a batch keeps.
 struct BatchFit {
   std::string document;   ///< schema slipfit.fit/1, on one line
   std::string page;       ///< HTML; empty: none
   std::string sparkline;  ///< the trace as a small SVG path; empty: none
 };
 
-/// Fits the recordings of a group together; the document's id is `id`. Called in child processes.
+/// Fits the recordings of a group together; the document gets the id `id`. The function is called in child processes.
 using GroupFit = std::function<Result<BatchFit>(const std::string& id, const std::vector<ManifestEntry>& members)>;
 
-/// The fit of the sweep (slipfit/sweep.hpp) as `slipfit fit --joint --json` writes it, with its page where there is a
-/// report.
+/// Returns a function that fits the sweep (slipfit/sweep.hpp) and writes it like `slipfit fit --joint --json`, with its
+/// page if there is a report.
 GroupFit group_fit(const FitOptions& options, const std::optional<BatchReport>& report);
 
 struct BatchOptions {
@@ -60,9 +60,10 @@ struct BatchProgress {
   double seconds = 0.0;    ///< since this run began
 };
 
-/// How a batch reports to its caller; each may be empty. All are called from the thread that called run_batch.
+/// Functions through which a batch reports to its caller; each may be empty. All are called from the thread that called
+/// run_batch.
 struct BatchHooks {
-  /// Asked ten times a second; fits that run have a second to end.
+  /// Asked ten times per second; if it returns true, running fits have one second to end.
   std::function<bool()> should_stop;
   /// Asked as often; if it returns true, the batch and its processes stop until the calling process is continued.
   std::function<bool()> should_suspend;

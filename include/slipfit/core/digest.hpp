@@ -9,18 +9,18 @@
 
 namespace slipfit {
 
-/// XXH3, 128 bits: the same bytes have the same digest on every machine. It tells files apart and finds damage; it is
-/// no protection against somebody who makes two files with the same digest on purpose.
+/// A digest, XXH3 with 128 bits: the same bytes have the same digest on every machine. It distinguishes files and
+/// reveals damage; it is not secure against files made on purpose with the same digest.
 struct Digest {
   std::uint64_t high = 0;
   std::uint64_t low = 0;
 
-  /// "xxh128:" and 32 hexadecimal digits, as `xxh128sum` prints them.
+  /// Returns "xxh128:" and 32 hexadecimal digits, as `xxh128sum` prints them.
   [[nodiscard]] std::string text() const;
   friend auto operator<=>(const Digest&, const Digest&) = default;  // NOLINT(modernize-use-nullptr): a wrong alarm
 };
 
-/// The digest of bytes that come piece by piece.
+/// Computes the digest of bytes that arrive in pieces.
 class Digester {
  public:
   Digester();
@@ -31,7 +31,7 @@ class Digester {
   Digester& operator=(const Digester&) = delete;
 
   void add(std::string_view bytes);
-  /// Of all bytes so far.
+  /// Returns the digest of all bytes so far.
   [[nodiscard]] Digest digest() const;
   [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
 
@@ -43,7 +43,7 @@ class Digester {
 
 Digest digest_of(std::string_view bytes);
 
-/// Empty where it is no regular file or cannot be read.
+/// Returns the digest of a file, or nothing if it is not a regular file or cannot be read.
 std::optional<Digest> digest_of_file(const std::string& file);
 
 }  // namespace slipfit

@@ -6,13 +6,13 @@
 
 namespace slipfit {
 
-/// Closed interval [low, high] in the unit of the quantity it belongs to.
+/// A closed interval [low, high] in the unit of its quantity.
 struct Interval {
   double low = 0.0;
   double high = 0.0;
 };
 
-/// A number with its standard error and 95 % interval. What is not known is empty, and `note` says why.
+/// A number with its standard error and 95 % interval. Unknown members are empty, and `note` states the reason.
 struct Estimate {
   std::optional<double> value;
   std::optional<double> standard_error;
@@ -20,7 +20,7 @@ struct Estimate {
   std::string note;
 };
 
-/// What the data say about a model parameter (docs/accuracy.md gives the rule for each).
+/// The result for a model parameter (docs/accuracy.md gives the rule of each status).
 enum class ParameterStatus {
   Identified,
   Weak,
@@ -30,7 +30,7 @@ enum class ParameterStatus {
   Conditional  ///< known if something holds that the recording cannot show: the note says what
 };
 
-/// Something that the user should know before trusting the numbers. `code` is snake_case and listed in docs/formats.md.
+/// A condition that limits the reliability of the results. `code` is snake_case and listed in docs/formats.md.
 struct Warning {
   std::string code;
   std::string message;

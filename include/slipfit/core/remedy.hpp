@@ -6,7 +6,8 @@
 
 namespace slipfit {
 
-/// What to do about an error: what its message asks for, else what docs/formats.md says of its code; else empty.
+/// Returns what to do about an error: the request in its message, otherwise the remedy of its code in docs/formats.md;
+/// otherwise it is empty.
 std::string remedy_of(const Error& error);
 
 }  // namespace slipfit

@@ -6,14 +6,14 @@
 
 namespace slipfit {
 
-/// Why an input cannot be used. `message` is one line: place, offending value, what was expected, remedy.
+/// The reason why an input cannot be used. `message` is one line: place, offending value, expectation, remedy.
 struct Error {
   std::string code;  ///< snake_case, stable across versions (failures.csv, scripts)
   std::string message;
 };
 
-/// A value, or the reason why there is none. Ask `ok()` (or convert to bool) before taking either: what is not there
-/// throws std::bad_variant_access.
+/// A value, or the reason why there is none. Check `ok()` (or convert to bool) before reading either; reading the
+/// missing one throws std::bad_variant_access.
 template <class T>
 class [[nodiscard]] Result {
  public:

@@ -5,14 +5,15 @@
 
 namespace slipfit {
 
-/// Thrown out of the library's functions where a caller asked for it by a StopScope, and never otherwise.
+/// Thrown by functions of the library if a caller requested it with a StopScope, and never otherwise.
 struct Stopped {};
 
-/// Shared by who asks for the end of a piece of work and who does the work; true: it is to end.
+/// A flag that is shared by the caller who requests the end of some work and the code that does it; true requests the
+/// end.
 using StopToken = std::shared_ptr<const std::atomic<bool>>;
 
-/// While it exists, the library's work in this thread, and in threads that it starts for that work, ends with Stopped
-/// soon after the token has become true: fits within a second.
+/// While it exists, the work of the library in this thread, and in threads that it starts for that work, ends with
+/// Stopped soon after the token becomes true: fits within a second.
 class StopScope {
  public:
   explicit StopScope(StopToken token);
@@ -26,10 +27,10 @@ class StopScope {
   StopToken before_;
 };
 
-/// The token of the innermost StopScope of this thread; empty where there is none.
+/// Returns the token of the innermost StopScope of this thread; empty without one.
 [[nodiscard]] StopToken stop_token();
 
-/// Throws Stopped where the work of this thread is to end.
+/// Throws Stopped if the work of this thread was requested to end.
 void throw_if_stopped();
 
 }  // namespace slipfit

@@ -19,20 +19,20 @@ enum class Dimension {
   Torque          ///< N m ("in lb" included)
 };
 
-/// value in SI = scale * value in the unit. (No unit that slipfit accepts has an offset.)
+/// The factor of a unit: value in SI = scale * value in the unit. (No unit that slipfit accepts has an offset.)
 struct UnitScale {
   double scale = 1.0;
 };
 
-/// "mm/min", "gf", "um/s", "mN", "µs", "%" ... with SI prefixes, products, quotients and powers of them.
-/// Error `unknown_unit` where the text is no unit or has another dimension.
+/// Parses a unit such as "mm/min", "gf", "um/s", "mN", "µs", "%", with SI prefixes, products, quotients and powers. The
+/// error is `unknown_unit` if the text is not a unit or has another dimension.
 Result<UnitScale> parse_unit(std::string_view unit, Dimension dimension);
 
-/// The unit of a number with a unit, as it was written: "mm/min" of "600 mm/min"; empty where there is none.
+/// Returns the unit of a number as it was written: "mm/min" of "600 mm/min"; empty without a unit.
 std::string_view unit_in(std::string_view text);
 
-/// A number alone (already SI) or a number with a unit: "0.01", "10mm/s", "600 mm/min", "41 gf".
-/// Errors `bad_number`, `unknown_unit`. Only finite numbers are accepted.
+/// Parses a number (in SI) or a number with a unit: "0.01", "10mm/s", "600 mm/min", "41 gf". Only finite numbers are
+/// accepted. Errors: `bad_number`, `unknown_unit`.
 Result<double> parse_quantity(std::string_view text, Dimension dimension);
 
 }  // namespace slipfit

@@ -10,8 +10,8 @@ struct FigureFile {
   std::string content;
 };
 
-/// Figures 2 to 8 of the paper and the map of regimes, each as tables (CSV) and a picture (SVG); docs/figures.md tells
-/// what they show. The same bytes every time.
+/// Returns figures 2 to 8 of the paper and the stability map, each as tables (CSV) and a picture (SVG); docs/figures.md
+/// describes them. The bytes are always the same.
 std::vector<FigureFile> paper_figures();
 
 }  // namespace slipfit

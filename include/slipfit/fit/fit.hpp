@@ -10,7 +10,7 @@
 
 namespace slipfit {
 
-/// Fits every tier to the cycles and chooses. Empty where fewer than 3 cycles can be fitted.
+/// Fits every tier to the cycles and chooses one. The result is empty if fewer than 3 cycles can be fitted.
 std::optional<FitResult> fit_recording(const Recording& recording, const Quality& quality,
                                        const Segmentation& segmentation, const FitOptions& options = {});
 

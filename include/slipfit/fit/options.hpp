@@ -15,18 +15,19 @@ namespace slipfit {
 struct FitOptions {
   std::optional<Tier> tier{};  ///< empty: chosen by the data
   HeldParameters held{};
-  /// Of the rig of one recording, after its release: data of w_n and zeta where the slips are the same motion.
+  /// The free oscillation of the rig after its release, used as data for w_n and zeta if it is the same motion as the
+  /// slips.
   std::optional<RingDown> ring_down{};
   bool curve = false;  ///< fill FitResult::curve (16 bytes a sample)
-  /// Told of each step of a fit of several recordings ("fitting without recording 3 of 13"); may be empty.
+  /// Called with each step of a fit of several recordings ("fitting without recording 3 of 13"); may be empty.
   std::function<void(const std::string&)> tell_step{};
 };
 
-/// How many recordings a fit is of.
+/// The number of recordings in a fit: one, or those of a sweep.
 enum class FitKind { Single, Sweep };
 
-/// What people type: "auto" or a tier, and "NAME=VALUE" for each parameter to hold. Errors: unknown_tier, unknown_fix,
-/// bad_number, out_of_range.
+/// Parses the options as people type them: "auto" or a tier, and "NAME=VALUE" for each parameter to fix. Errors:
+/// unknown_tier, unknown_fix, bad_number, out_of_range.
 Result<FitOptions> parse_fit_options(const std::string& tier, const std::vector<std::string>& fixed, FitKind kind);
 
 }  // namespace slipfit

@@ -45,16 +45,17 @@ struct ParameterInfo {
   std::string_view words;  ///< for people
   std::string_view unit;   ///< SI; empty for a pure number
   Range range;
-  /// Identified needs a standard error below this share of the value (by a quarter of the 95 % interval).
+  /// The largest relative standard error of an identified parameter (a quarter of the 95 % interval is compared with
+  /// it).
   double identified_below = 0.0;
   bool can_be_held = false;    ///< by HeldParameters
   bool hangs_on_zero = false;  ///< a force level: off by what the sensor's zero is off
 };
 
-/// The one table of them.
+/// Returns the table of all parameters.
 std::span<const ParameterInfo> parameter_table();
 const ParameterInfo& info(ParameterId id);
-/// Of a key; empty where none has it.
+/// Returns the parameter with this key, or nothing if the key is unknown.
 std::optional<ParameterId> parameter_with_key(std::string_view key);
 
 /// One parameter of a fit in SI units.
@@ -66,14 +67,14 @@ struct Parameter {
   [[nodiscard]] std::string_view name() const { return info(id).key; }
 };
 
-/// Parameters that the user knows. SI; stiffness and frequency > 0, 0 <= damping ratio < 1.
+/// Parameters that the user states, in SI; stiffness and frequency > 0, 0 <= damping ratio < 1.
 struct HeldParameters {
   std::optional<double> stiffness_N_per_m{};
   std::optional<double> natural_frequency_rad_per_s{};
   std::optional<double> damping_ratio{};
 };
 
-/// What a model's covariance is of, in its order; of the positive ones the logarithm.
+/// The parameters of a model's covariance in its order; positive parameters enter as logarithms.
 inline constexpr std::array kModelParameters{ParameterId::Stiffness,        ParameterId::NaturalFrequency,
                                              ParameterId::DampingRatio,     ParameterId::FrictionDifference,
                                              ParameterId::FrictionSlope,    ParameterId::Alpha,
@@ -82,7 +83,7 @@ inline constexpr std::array kModelParameters{ParameterId::Stiffness,        Para
                                              ParameterId::StiffnessExponent};
 inline constexpr std::size_t kModelValues = kModelParameters.size();
 
-/// The place of one of them.
+/// Returns the position of a parameter in the covariance of the model.
 constexpr std::size_t place_in_model(ParameterId id) {
   std::size_t place = 0;
   while (place < kModelValues && kModelParameters[place] != id) ++place;

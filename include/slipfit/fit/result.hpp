@@ -13,10 +13,10 @@
 
 namespace slipfit {
 
-/// Models from the poorest to the richest; each adds one idea to the one before.
+/// Models in order of complexity; each adds one idea to the previous one.
 enum class Tier { Sawtooth, Undamped, Damped, Velocity, Weakening };
 
-/// One cycle of the table `--cycles`: as detected, and as fitted where the fit uses it. Forces in the unit of the
+/// A cycle in the table `--cycles`: as detected, and as fitted if the fit uses it. Forces are in the unit of the
 /// column.
 struct Cycle {
   double peak_s = 0.0;
@@ -33,7 +33,7 @@ struct Cycle {
   bool selected = true;              ///< for the fit; false: one of more than it needs
 };
 
-/// A tier that was tried, and why it was taken or left.
+/// A tier that was tried, with the reason why it was chosen or rejected.
 struct Candidate {
   Tier tier = Tier::Sawtooth;
   std::size_t parameters = 0;  ///< shared ones
@@ -61,7 +61,7 @@ struct CurvePoint {
   double interference = 0.0;  ///< the part of `force` that the fit attributes to interference (mains, pick-up)
 };
 
-/// Mean slope of the force level over the recording.
+/// The mean slope of the force level over the recording.
 struct LevelTrend {
   Estimate rate_per_s;                        ///< unit of the force column over s; empty: the level is constant
   LevelReading reading = LevelReading::Open;  ///< of a significant trend
@@ -69,7 +69,7 @@ struct LevelTrend {
   std::optional<Interval> level_range{};  ///< over the recording, from its mean; empty: no significant trend
 };
 
-/// How well the cycles look like stick-slip cycles of the model; the kind of motion rests on it.
+/// Measures of how well the model describes the cycles; the kind of motion depends on them.
 struct FitDiagnostics {
   double relative_residual = 0.0;   ///< residual rms over the mean onset force above F_k
   double onset_force_spread = 0.0;  ///< standard deviation over mean of the onset force above F_k
@@ -77,8 +77,8 @@ struct FitDiagnostics {
   double restick_share = 0.0;       ///< share of the cycles whose slip ends in stick
   double span_share = 0.0;          ///< duration of the cycles over duration of the recording
   double samples_per_slip = 0.0;
-  /// Largest slope, whatever their phases, that the fitted lines give to a line through the middle three fifths of a
-  /// stick; force per second.
+  /// The largest slope, for any phases, that the fitted lines add to a straight line through the middle three fifths of
+  /// a stick; force per second.
   double stick_slope_by_lines = 0.0;
   double hum_share = 0.0;  ///< amplitude of the fitted mains hum over the mean onset force
 };
@@ -90,72 +90,74 @@ struct SpeedDependence {
   double alpha_s_per_m = 0.0;
 };
 
-/// Static friction that grows with the stick time t before the slip (contact ageing): F_s - F_k(0+) = D + rate
-/// ln((t + cut-off) / (reference + cut-off)), D being ModelEstimate::friction_difference_N. docs/model.md (18)
+/// Static friction that grows with the stick time t before the slip (contact ageing): F_s - F_k(0+) = D + rate ln((t +
+/// cut-off) / (reference + cut-off)), where D is ModelEstimate::friction_difference_N. docs/model.md (18)
 struct Ageing {
   double rate_N = 0.0;
   double reference_stick_s = 1.0;
   double cutoff_s = 0.0;  ///< >= 0; sticks far shorter than it add nothing to static friction
 };
 
-/// Reloading hysteresis: after a slip the force rises by force (1 - exp(-x / length)) more than by k x over the path x
-/// of the stick. docs/model.md (25)
+/// Force recovery after a slip (reloading hysteresis): over the displacement x of the stick the force rises by force (1
+/// - exp(-x / length)) in addition to k x. docs/model.md (25)
 struct Reloading {
   double force_N = 0.0;   ///< A > 0
   double length_m = 0.0;  ///< l > 0
 };
 
-/// Stiffness that goes with the driving speed, k as V^exponent, and w_n of the same mass. docs/model.md (26)
+/// Stiffness that varies with driving speed, k proportional to V^exponent, and w_n of the same mass. docs/model.md (26)
 struct StiffnessTrend {
   double exponent = 0.0;
   double speed_m_per_s = 1.0;  ///< at which ModelEstimate has k and w_n
 
-  /// ln of k at a speed over that k.
+  /// Returns ln of k at a speed relative to k at the reference speed.
   [[nodiscard]] double log_growth_at(double at_m_per_s) const {
     return exponent * std::log(at_m_per_s / speed_m_per_s);
   }
 };
 
-/// What a sweep tells of F_s - F_k(0+) at speeds beyond its own, where no law of friction is sure to hold.
+/// The trend of F_s - F_k(0+) outside the speeds of a sweep, where no law of friction is established.
 struct SpeedReach {
   double slowest_m_per_s = 0.0;
   double fastest_m_per_s = 0.0;
-  /// Half-width of the 95 % interval of d ln(F_s - F_k(0+)) / d ln V beyond them, about what the model says; empty: too
-  /// few recordings, or too near in speed, to see a trend.
+  /// Half-width of the 95 % interval of d ln(F_s - F_k(0+)) / d ln V outside the speeds, around the model; empty if the
+  /// recordings are too few, or too similar in speed, to show a trend.
   std::optional<double> trend;
 
-  /// ln of the ratio to the nearest of its speeds; 0 among them.
+  /// Returns ln of the ratio to the nearest of its speeds; 0 between them.
   [[nodiscard]] double distance_to(double speed_m_per_s) const;
-  /// From where on a law that was fitted to the recordings is not sure: as distance_to(), begun before their ends.
+  /// Returns the distance in ln V outside the speeds at which the fitted law is established; as distance_to(), but
+  /// starting before the ends of the sweep.
   [[nodiscard]] double distance_beyond(double speed_m_per_s) const;
-  /// Of the 95 % interval of ln(F_s - F_k(0+)) there, as far as the trend makes it; 0 without one, and among the speeds
-  /// but near their ends: a line through the recordings misses what bends there before it leaves them.
+  /// Returns the half-width of the 95 % interval of ln(F_s - F_k(0+)) that the trend causes at this speed; it is 0
+  /// without a trend and between the recordings except near their ends, where a line through the recordings already
+  /// misses curvature.
   [[nodiscard]] double half_width_at(double speed_m_per_s) const;
 };
 
-/// One recording, which shows neither ageing nor any dependence on the driving speed: what predictions at other speeds
-/// have to allow for. docs/model.md section 13
+/// The uncertainty of predictions at other speeds from one recording, which shows neither ageing nor velocity
+/// dependence. docs/model.md section 13
 struct SingleSpeed {
   double speed_m_per_s = 0.0;
-  /// Least standard errors of (ln k, ln w_n, zeta, ln (F_s - F_k(0+))) at other speeds: 0 where the parameter is
+  /// Smallest standard errors of (ln k, ln w_n, zeta, ln(F_s - F_k(0+))) at other speeds; 0 if the parameter is
   /// identified or fixed.
   std::array<double, 4> least_errors{};
 
-  /// |ln| of the ratio of a speed to that of the recording.
+  /// Returns |ln| of the ratio of a speed to that of the recording.
   [[nodiscard]] double distance_to(double other_m_per_s) const {
     return std::abs(std::log(other_m_per_s / speed_m_per_s));
   }
 };
 
-/// The fitted model as one point with its covariance, for everything that is computed from it.
+/// The fitted model as one point with its covariance, from which everything else is computed.
 struct ModelEstimate {
   double stiffness_N_per_m = 0.0;
   double natural_frequency_rad_per_s = 0.0;
   double damping_ratio = 0.0;          ///< >= 0
   double friction_difference_N = 0.0;  ///< F_s - F_k(0+)
-  /// Of kModelParameters, (ln k, ln w_n, zeta, ln (F_s - F_k(0+)), b, alpha, rate and cut-off of ageing, A and ln l of
-  /// reloading, exponent of k), scatter of the cycles included; b and alpha are exactly 0 under Coulomb friction, the
-  /// others where the model does not have them.
+  /// The covariance of kModelParameters (ln k, ln w_n, zeta, ln(F_s - F_k(0+)), b, alpha, rate and cut-off of ageing, A
+  /// and ln l of the force recovery, exponent of k), including the scatter of the cycles; b and alpha are exactly 0
+  /// under Coulomb friction, the others if the model does not contain them.
   std::array<std::array<double, kModelValues>, kModelValues> covariance{};
   double degrees_of_freedom = 1.0;                    ///< of Student's t
   bool damping_identified = false;                    ///< zeta is known well enough to ask for critical speeds
@@ -168,7 +170,7 @@ struct ModelEstimate {
   std::optional<double> normal_force_N{};             ///< that the forces belong to, where loads are known
 };
 
-/// In the order of kModelParameters; 0 where the model does not have one.
+/// Returns the values in the order of kModelParameters; 0 for those that the model does not contain.
 std::array<double, kModelValues> values_of(const ModelEstimate& model);
 
 struct FitResult {
@@ -176,7 +178,7 @@ struct FitResult {
   FitDiagnostics diagnostics;
   LevelTrend level_trend;                   ///< of one recording
   std::optional<ModelEstimate> estimate;    ///< empty where the slip is not resolved or forces have no newtons
-  bool mass_gives_frequency = false;        ///< w_n is that of the stated mass: averaging of the samples hides it
+  bool mass_gives_frequency = false;        ///< w_n is that of the stated mass: averaging of the samples conceals it
   std::vector<std::string> conditional_on;  ///< what the numbers assume ("Coulomb friction", ...)
   std::vector<Candidate> candidates;
   Residual residual;
@@ -186,9 +188,9 @@ struct FitResult {
   std::vector<CurvePoint> curve;  ///< samples that the fit covers
   Warnings warnings;
 
-  /// Null where the fit does not have it.
+  /// Returns the parameter, or null if the fit does not contain it.
   [[nodiscard]] const Parameter* find(ParameterId id) const;
-  /// Empty, without a reason, where the fit does not have it.
+  /// Returns the estimate of a parameter; it is empty, without a reason, if the fit does not contain the parameter.
   [[nodiscard]] Estimate estimate_of(ParameterId id) const;
   [[nodiscard]] Estimate stiffness() const { return estimate_of(ParameterId::Stiffness); }
   [[nodiscard]] Estimate friction_difference() const { return estimate_of(ParameterId::FrictionDifference); }

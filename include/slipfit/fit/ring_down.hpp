@@ -4,7 +4,7 @@
 
 namespace slipfit {
 
-/// A free oscillation of the rig that dies out, after its release or of a motion that ends in steady sliding.
+/// A free oscillation of the rig that decays, after its release or at the end of a motion that becomes steady sliding.
 struct RingDown {
   Estimate frequency_Hz;  ///< of the damped oscillation
   Estimate damping_ratio;

@@ -12,7 +12,7 @@
 
 namespace slipfit {
 
-/// What the fit of a sweep says of one of its recordings; forces as the sensor reads them.
+/// Results of the fit of a sweep for one of its recordings; forces are those that the sensor measures.
 struct SweepPoint {
   std::size_t cycles_used = 0;
   std::optional<double> rms;     ///< residual, N
@@ -20,13 +20,13 @@ struct SweepPoint {
   Estimate mean_steady_force_N;  ///< steady sliding: as measured
   Estimate spacing_m;            ///< periodic displacement by the model at this speed
   Estimate spacing_left_out_m;   ///< the same from a fit without this recording: what proves the model
-  /// By the fit without this recording; empty: there is none.
+  /// The stiffness by a fit without this recording; empty if there is no such fit.
   std::optional<double> stiffness_left_out_N_per_m;
   std::optional<double> friction_difference_left_out_N;
 };
 
-/// Parameters shared by a sweep. `result` holds tier (Damped or Velocity), candidates, parameters and correlation; it
-/// has no cycles and no curve.
+/// The parameters shared by a sweep. `result` contains tier (Damped or Velocity), candidates, parameters and
+/// correlation; it has no cycles and no curve.
 struct SweepFit {
   FitResult result;
   std::vector<SweepPoint> points;  ///< in the order of the recordings
@@ -35,8 +35,8 @@ struct SweepFit {
   bool ring_down_used = false;     ///< as data of w_n and zeta: it is the motion of the slips
 };
 
-/// Fits k, w_n, zeta, F_s, f0, f1, alpha to all recordings at once; each cycle keeps its own onset and static friction.
-/// Empty where fewer than two recordings have cycles that can be fitted.
+/// Fits k, w_n, zeta, F_s, f0, f1 and alpha to all recordings together; each cycle has its own onset and static
+/// friction. The result is empty if fewer than two recordings have cycles that can be fitted.
 std::optional<SweepFit> fit_sweep(std::span<const SweepRecording> recordings, const FitOptions& options = {});
 
 }  // namespace slipfit

@@ -9,14 +9,14 @@
 
 namespace slipfit {
 
-/// What a recording of a sweep is used for.
+/// The use of a recording in the fit of a sweep.
 enum class SweepRole {
   Cycles,  ///< stick-slip: its cycles are fitted
   Steady,  ///< steady sliding: its mean force is F_k(V)
   LeftOut
 };
 
-/// One recording of a sweep (a speed, perhaps a load). The references must outlive the fit.
+/// One recording of a sweep (a speed, and possibly a load). The references must outlive the fit.
 struct SweepRecording {
   const Recording& recording;
   const Quality& quality;

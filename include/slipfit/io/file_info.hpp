@@ -17,10 +17,10 @@ struct ColumnInfo {
   std::size_t index = 1;  ///< 1-based
   std::string name;       ///< without the unit; empty where the file has none
   std::string unit;
-  std::string quantity;  ///< "time", "force", ...; empty where it cannot be told
+  std::string quantity;  ///< "time", "force", ...; empty if it is unknown
 };
 
-/// One of several recordings in a file, one after another.
+/// One of several consecutive recordings in a file.
 struct StepInfo {
   std::size_t step = 1;              ///< what `ReadOptions::step` takes
   RowRange rows;                     ///< what `ReadOptions::rows` takes
@@ -29,13 +29,13 @@ struct StepInfo {
   std::optional<double> normal_force_N;
 };
 
-/// What `read_recording` would take; columns as `ReadOptions` names them.
+/// The columns that `read_recording` would read, by the names that `ReadOptions` accepts.
 struct TakenColumns {
   std::optional<std::string> time_column, force_column, normal_force_column;
   std::optional<double> speed_m_per_s;
 };
 
-/// What a file holds.
+/// The contents of a file.
 struct FileInfo {
   std::vector<std::string> sheets;     ///< all that `ReadOptions::sheet` can name: of a workbook, files of an archive
   std::vector<std::string> variables;  ///< all that `ReadOptions::variable` can name, of which a recording may be made
@@ -48,11 +48,11 @@ struct FileInfo {
   TakenColumns taken;
   std::vector<std::string> assumed;
   std::optional<Error> refusal;        ///< why `read_recording` would refuse the file as it is
-  std::optional<Recording> recording;  ///< what it reads else, with a speed of 1 m/s where no column tells it
+  std::optional<Recording> recording;  ///< what it reads else, with a speed of 1 m/s if no column contains it
 };
 
-/// Looks at a file without refusing it for what `read_recording` needs. Errors: those of a file without rows of
-/// numbers, and of options that name what is not there.
+/// Inspects a file even if `read_recording` would refuse it. Errors: those of a file without rows of numbers, and of
+/// options that select something missing.
 Result<FileInfo> inspect_recording(const std::filesystem::path& file, const ReadOptions& options = {});
 
 /// One of the tables in a file.
@@ -62,9 +62,9 @@ struct TableInfo {
   Result<FileInfo> info;
 };
 
-/// Looks at each table of a file (sheets of a workbook, files of an archive, groups of HDF5 or TDMS, structures of
-/// MATLAB), which is opened and read once; with a sheet or variable in `options` at that one alone.
-/// `FileInfo::recording` stays empty. Errors: those of files that cannot be opened.
+/// Inspects each table of a file (sheets of a workbook, files of an archive, groups of HDF5 or TDMS, structures of
+/// MATLAB), which is opened and read once; a sheet or variable in `options` selects one. `FileInfo::recording` is
+/// empty. Errors: those of files that cannot be opened.
 Result<std::vector<TableInfo>> inspect_tables(const std::filesystem::path& file, const ReadOptions& options = {});
 
 }  // namespace slipfit

@@ -12,19 +12,19 @@
 namespace slipfit {
 
 /// Reads a manifest row by row, in memory that does not depend on its length. docs/formats.md lists the columns:
-/// `id`, `file` and `speed_m_per_s` must be there; a unit may stand in the name (`speed [mm/s]`, `speed_mm_per_s`).
+/// `id`, `file` and `speed_m_per_s` must be there; the name may contain a unit (`speed [mm/s]`, `speed_mm_per_s`).
 /// Files are relative to the manifest. Every error is one line: file, line, column, value, what was expected.
 class ManifestReader {
  public:
-  /// Errors: those of opening a text file, missing_column, duplicate_column, unknown_unit.
+  /// Opens a manifest. Errors: those of opening a text file, missing_column, duplicate_column, unknown_unit.
   static Result<ManifestReader> open(const std::filesystem::path& file);
 
-  /// The next recording; nothing behind the last one. Errors: wrong_field_count, open_quote, missing_value, bad_id,
-  /// bad_number, out_of_range, bad_window, unknown_unit, unknown_force_view, not_readable. An error is about its row
-  /// only: the next call goes on behind it (but after not_readable, where nothing follows).
+  /// Returns the next recording, or nothing after the last one. An error concerns its row only: the next call continues
+  /// after it (except after not_readable, which ends the manifest). Errors: wrong_field_count, open_quote,
+  /// missing_value, bad_id, bad_number, out_of_range, bad_window, unknown_unit, unknown_force_view, not_readable.
   Result<std::optional<ManifestEntry>> next();
 
-  /// Columns that mean nothing here, as they are called in the file.
+  /// Returns the names of columns that are not used.
   [[nodiscard]] const std::vector<std::string>& ignored_columns() const;
 
   ManifestReader(ManifestReader&&) noexcept;
@@ -39,12 +39,12 @@ class ManifestReader {
   std::unique_ptr<Implementation> implementation_;
 };
 
-/// The recordings of one group (or all, without a group), in the manifest's order. Errors: those of ManifestReader in
-/// any row, duplicate_id, unknown_group, empty_manifest.
+/// Returns the recordings of one group (or all, without a group) in the order of the manifest. Errors: those of
+/// ManifestReader in any row, duplicate_id, unknown_group, empty_manifest.
 Result<std::vector<ManifestEntry>> read_manifest_group(const std::filesystem::path& file,
                                                        const std::optional<std::string>& group);
 
-/// The error of a recording whose manifest must say more: the remedy names the manifest's columns in place of options.
+/// Returns the error with a remedy that names columns of the manifest instead of options.
 Error in_words_of_manifest(Error error);
 
 }  // namespace slipfit

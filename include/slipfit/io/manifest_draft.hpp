@@ -11,7 +11,7 @@
 
 namespace slipfit {
 
-/// One recording of a drafted manifest; what could not be told is empty.
+/// One recording of a drafted manifest; what was not found is empty.
 struct DraftEntry {
   std::string id;
   std::filesystem::path file;
@@ -27,13 +27,14 @@ struct ManifestDraft {
   std::vector<Error> skipped;  ///< files that hold no recording, and why
 };
 
-/// The recordings in files and folders (with what lies below, by the usual endings), every sheet of a workbook and
-/// every group of an HDF5 file; not what slipfit itself has written (tables of a batch, curves, manifests). Speed and
-/// load come from columns, else from the file's name ("fdm_232g_50mm_min", "V-100mmps"); the rest of the name without a
-/// last number is the group. `options`: how each is read.
+/// Drafts a manifest of the recordings in files and folders (with subfolders, by the usual file endings), every sheet
+/// of a workbook and every group of an HDF5 file, except files that slipfit wrote (tables of a batch, curves,
+/// manifests). Speed and load come from columns, otherwise from the file name ("fdm_232g_50mm_min", "V-100mmps"); the
+/// rest of the name without a final number is the group. `options` apply to each file.
 ManifestDraft draft_manifest(const std::vector<std::filesystem::path>& paths, const ReadOptions& options = {});
 
-/// Without the recordings whose names no line of a manifest can hold; `skipped` says which. Error: bad_id.
+/// Returns the draft without recordings whose names a line of a manifest cannot contain; `skipped` lists them. Error:
+/// bad_id.
 ManifestDraft writable(ManifestDraft draft);
 
 /// A column of a manifest with the same cell in every row.
@@ -41,8 +42,8 @@ struct DraftColumn {
   std::string name, cell;
 };
 
-/// As `ManifestReader` reads it from a file in `folder`, of a writable draft. Ids and groups that a spreadsheet would
-/// run as formulas get a ' in front.
+/// Writes a writable draft so that `ManifestReader` reads it from a file in `folder`. Ids and groups that a spreadsheet
+/// would run as formulas get a leading '.
 std::string to_csv(const ManifestDraft& draft, const std::filesystem::path& folder,
                    const std::vector<DraftColumn>& columns = {});
 

@@ -12,7 +12,7 @@
 
 namespace slipfit {
 
-/// One row of a manifest: a recording, and all that is needed to read it.
+/// One row of a manifest: a recording, and everything that is needed to read it.
 struct ManifestEntry {
   std::string id;  ///< not empty, no slash, no control character, not of the form "group:..."
   std::filesystem::path file;
@@ -24,7 +24,7 @@ struct ManifestEntry {
   std::size_t line = 0;  ///< in the manifest, for messages; 0: of none
 };
 
-/// What can be said about a recording: in a column of a manifest, and by an option of the command line.
+/// A property of a recording that a column of a manifest or an option of the command line can state.
 struct RecordingOption {
   enum class Of { Conditions, Reading, Pieces };
   std::string_view column;    ///< without its unit: "speed"
@@ -32,11 +32,11 @@ struct RecordingOption {
   std::string_view help{};
   Of of = Of::Conditions;
 
-  /// "--strokes" of "--strokes{both}", the first of several spellings.
+  /// Returns the name of the option: "--strokes" of "--strokes{both}", the first of several spellings.
   [[nodiscard]] constexpr std::string_view name() const { return option.substr(0, option.find_first_of(",{")); }
 };
 
-/// Those that every command takes which reads a recording.
+/// Returns the options of every command that reads a recording.
 std::vector<RecordingOption> recording_options();
 
 /// A cell of a manifest by the name of its column.
@@ -46,8 +46,8 @@ struct NamedCell {
   std::string place = {};  ///< begins messages about it; empty: the column
 };
 
-/// What a row of these cells says, for programs that take it as text; no column is needed. Errors: unknown_option and
-/// those of the cells of a manifest.
+/// Returns the entry that a row with these cells states, for programs that state it as text; no column is required.
+/// Errors: unknown_option and those of the cells of a manifest.
 Result<ManifestEntry> entry_from_cells(std::vector<NamedCell> cells);
 
 }  // namespace slipfit

@@ -21,17 +21,17 @@ struct RowRange {
   std::size_t last = 1;
 };
 
-/// The rows whose cell in this column says this: a number, or a text.
+/// The rows with this value, a number or a text, in this column.
 struct ColumnValue {
   std::string column;  ///< name, or 1-based number as text
   std::string value;
 };
 
-/// Which recordings a file holds. Strokes: those of a reciprocating test, of both directions or of one sign of the
-/// force; segments: the stretches of one speed each.
+/// The recordings to read from a file. Strokes are those of a reciprocating test, in both directions or with one sign
+/// of the force; segments are the sections of constant speed.
 enum class Pieces { One, Strokes, PositiveStrokes, NegativeStrokes, Segments };
 
-/// What the user says about the file; everything left empty is found out, and said in `Provenance::assumed`.
+/// Properties of the file that the user states; everything left empty is detected and listed in `Provenance::assumed`.
 struct ReadOptions {
   std::optional<std::string> time_column;          ///< name, or 1-based number as text
   std::optional<std::string> force_column;         ///< name, or 1-based number as text
@@ -53,24 +53,24 @@ struct ReadOptions {
   Pieces pieces = Pieces::One;  ///< `read_pieces` takes them apart
 };
 
-/// What is stated, as columns of a manifest and their cells: numbers in SI.
+/// Returns the stated options as columns of a manifest and their cells; numbers are in SI.
 std::vector<std::pair<std::string, std::string>> stated_cells(const ReadOptions& options);
 
-/// "A:B" with 1 <= A < B.
+/// Parses "A:B" with 1 <= A < B.
 std::optional<RowRange> parse_row_range(std::string_view text);
 
-/// "both" or empty, "positive", "negative".
+/// Parses "both" or an empty text, "positive", "negative".
 std::optional<Pieces> parse_strokes(std::string_view text);
 
-/// What "5 N/V" says: newtons for one SI unit of the column's quantity; for one of the unit itself where it is not
-/// known ("0.02 N/raw").
+/// The meaning of "5 N/V": newtons for one SI unit of the column's quantity, or for one of the unit itself if the unit
+/// is unknown ("0.02 N/raw").
 struct ForceScale {
   double N_per_SI = 1.0;
   std::string unit;  ///< "V"
 };
 std::optional<ForceScale> parse_force_scale(std::string_view text);
 
-/// "COLUMN=VALUE"; a column's name may hold an equals sign, the value none.
+/// Parses "COLUMN=VALUE"; the name of a column may contain an equals sign, the value may not.
 std::optional<ColumnValue> parse_column_value(std::string_view text);
 
 }  // namespace slipfit

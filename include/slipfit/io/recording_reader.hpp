@@ -11,18 +11,19 @@
 
 namespace slipfit {
 
-/// Reads a recording as testers export it (docs/formats.md lists what is understood). `conditions.quantity` is set by
-/// the reader: a friction-coefficient column times `conditions.normal_force_N` where that is given.
-/// `conditions.zero_force_N` is subtracted; "-" is standard input. Errors carry file, line and remedy in one line.
+/// Reads a recording as testers export it (docs/formats.md lists the formats). The reader sets `conditions.quantity`; a
+/// column of friction coefficients is multiplied by `conditions.normal_force_N` if that is given.
+/// `conditions.zero_force_N` is subtracted; "-" is standard input. Errors contain file, line and remedy in one line.
 Result<Recording> read_recording(const std::filesystem::path& file, const Conditions& conditions,
                                  const ReadOptions& options = {});
 
-/// What `options.pieces` asks for; for Pieces::One the one recording, without a name.
+/// Reads the recordings that `options.pieces` selects; for Pieces::One the one recording, without a name.
 Result<std::vector<NamedRecording>> read_pieces(const std::filesystem::path& file, const Conditions& conditions,
                                                 const ReadOptions& options = {});
 
-/// The recording of these samples, or its strokes or segments, as a file with these two columns would be read: the same
-/// options (but for those that choose columns, or what in a container), the same errors, length_mismatch.
+/// Returns the recording of these samples, or its strokes or segments, as a file with these two columns would be read:
+/// with the same options (except those that select columns or parts of a container) and the same errors, and
+/// length_mismatch.
 Result<std::vector<NamedRecording>> read_samples(Samples samples, const Conditions& conditions,
                                                  const ReadOptions& options = {});
 

@@ -5,7 +5,7 @@
 
 namespace slipfit {
 
-/// Columns that a program holds, in place of a file; what is not finite is left out and counted.
+/// Columns in memory instead of a file; values that are not finite are left out and counted.
 struct Samples {
   std::string name;           ///< in results and messages
   std::vector<double> time;   ///< in `options.time_unit`; empty: `options.sample_rate_Hz` is the clock

@@ -9,7 +9,8 @@ namespace slipfit {
 /// The sliding body on its spring: m x'' + c x' + k x (docs/model.md section 1). Mass is k / w_n^2.
 class Slider {
  public:
-  /// stiffness > 0, natural frequency > 0, damping ratio >= 0: finite all. Errors name parameter, value and range.
+  /// Creates a slider: stiffness > 0, natural frequency > 0, damping ratio >= 0, all finite. Errors name parameter,
+  /// value and range.
   static Result<Slider> create(double stiffness_N_per_m, double natural_frequency_rad_per_s, double damping_ratio);
 
   [[nodiscard]] double stiffness_N_per_m() const { return stiffness_N_per_m_; }
@@ -18,7 +19,7 @@ class Slider {
   [[nodiscard]] double mass_kg() const {
     return stiffness_N_per_m_ / (natural_frequency_rad_per_s_ * natural_frequency_rad_per_s_);
   }
-  /// c = 2 zeta k / w_n, [Paper] eq. (6)
+  /// Returns c = 2 zeta k / w_n, [Paper] eq. (6).
   [[nodiscard]] double damping_N_s_per_m() const {
     return 2.0 * damping_ratio_ * stiffness_N_per_m_ / natural_frequency_rad_per_s_;
   }
@@ -43,7 +44,7 @@ class Friction {
   double kinetic_N_ = 0.0;
 };
 
-/// Bistable: stick-slip from rest, and steady sliding, once reached, persists too.
+/// The regime of the motion. Bistable: stick-slip from rest, while steady sliding is stable as well.
 enum class Regime { StickSlip, StickSlipBistable, OscillatorySlip, ContinuousSlip, UnstableSteady };
 
 /// One period of the stick-slip motion.
@@ -60,23 +61,23 @@ struct LimitCycle {
   double mean_force_N = 0.0;             ///< spring force over a period; F_k at zeta = 0
 };
 
-/// No cycle = no stick-slip at this speed: an answer, not an error.
+/// The motion at one speed; no cycle means no stick-slip at this speed, which is an answer and not an error.
 struct Motion {
   Regime regime = Regime::ContinuousSlip;
   double lambda = 0.0;  ///< w_n (F_s - F_k) / (k V), [Paper] eq. (9)
   std::optional<LimitCycle> cycle;
 };
 
-/// The exact solution of the Coulomb tier with viscous damping (docs/model.md section 4; zeta = 0 is section 2, [Paper]
-/// eqs (12)-(27)). Relative accuracy 4e-14 for lambda from 1e-6 to 1e8. speed > 0. zeta >= 1: no cycle, continuous
-/// slip.
+/// Returns the exact solution of the Coulomb tier with viscous damping (docs/model.md section 4; zeta = 0 is section 2,
+/// [Paper] eqs (12)-(27)). The relative accuracy is 4e-14 for lambda from 1e-6 to 1e8. speed > 0. At zeta >= 1 there is
+/// no cycle but continuous slip.
 Motion damped_motion(const Slider& slider, const Friction& friction, double speed_m_per_s);
 
-/// The smallest lambda at which a slip that starts from stick sticks again; 0 for zeta = 0. zeta in [0, 1).
+/// Returns the smallest lambda at which a slip that starts from stick sticks again; 0 for zeta = 0. zeta is in [0, 1).
 double critical_lambda(double damping_ratio);
 
-/// Speed above which stick-slip ends, V_c = w_n (F_s - F_k) / (k lambda_c); empty where it never ends (zeta = 0) and 0
-/// where there is none at any speed (zeta >= 1).
+/// Returns the speed above which stick-slip ends, V_c = w_n (F_s - F_k) / (k lambda_c); empty if it never ends (zeta =
+/// 0), and 0 if there is none at any speed (zeta >= 1).
 std::optional<double> critical_speed_m_per_s(const Slider& slider, const Friction& friction);
 
 }  // namespace slipfit

@@ -5,7 +5,7 @@
 
 namespace slipfit {
 
-/// The paper's approximation for low damping, [Paper] eqs (32)-(40), as printed; docs/errata.md tells where it errs.
+/// The paper's approximation for low damping, [Paper] eqs (32)-(40), as printed; docs/errata.md lists its errors.
 struct PaperCycle {
   double delta_e = 1.0;                   ///< eq. (33)
   double delta_t = 1.0;                   ///< eq. (34)
@@ -18,8 +18,9 @@ struct PaperCycle {
   double displacement_corrected_m = 0.0;  ///< V (t_slip + t_stick) with t_stick divided by w_n
 };
 
-/// The damping parameters depend on each other: the smallest self-consistent slip time, by a bracketed root. Error
-/// `no_solution` where there is none (eq. (36) has two roots or none). Damping ratio below 1, speed > 0.
+/// Returns the smallest self-consistent slip time of the paper's equations, whose damping parameters depend on each
+/// other, by a bracketed root. The error is `no_solution` if there is none (eq. (36) has two roots or none). Damping
+/// ratio below 1, speed > 0.
 Result<PaperCycle> paper_cycle(const Slider& slider, const Friction& friction, double speed_m_per_s);
 
 }  // namespace slipfit

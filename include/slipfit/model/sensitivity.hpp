@@ -8,7 +8,7 @@
 
 namespace slipfit {
 
-/// What derivatives of the Coulomb tiers are taken with respect to, in this order, each in its SI unit.
+/// The parameters with respect to which the Coulomb tiers are differentiated, in this order, each in its SI unit.
 enum ModelParameter : std::size_t {
   kStiffness,
   kNaturalFrequency,
@@ -37,7 +37,7 @@ struct CycleSensitivity {
   Sensitive end_force_N;
 };
 
-/// Empty where `damped_motion` has no cycle. speed > 0.
+/// Returns the cycle with its derivatives; empty if `damped_motion` has no cycle. speed > 0.
 std::optional<CycleSensitivity> damped_sensitivity(const Slider& slider, const Friction& friction,
                                                    double speed_m_per_s);
 

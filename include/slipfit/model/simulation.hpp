@@ -10,7 +10,7 @@
 
 namespace slipfit {
 
-/// What is added to the model's force, and how the static friction scatters.
+/// Disturbances that are added to the force of the model, and the scatter of the static friction.
 struct SimulationOptions {
   double duration_s = 1.0;
   double sample_rate_Hz = 1000.0;
@@ -29,14 +29,15 @@ struct SimulatedTrace {
   std::vector<double> force_N;
 };
 
-/// A recording of the exact Coulomb model from rest (spring relaxed, first a ramp). Where a slip does not stick again
-/// the motion rings down to steady sliding. Same options, same numbers on every platform (own normal deviates).
+/// Simulates a recording of the exact Coulomb model from rest (a relaxed spring, first a ramp). If a slip does not
+/// stick again, the motion decays to steady sliding. The same options give the same numbers on every platform (own
+/// normal deviates).
 SimulatedTrace simulate(const Slider& slider, const Friction& friction, double speed_m_per_s,
                         const SimulationOptions& options);
 
-/// The same with friction that depends on the speed. Errors: parameter_out_of_range (speed <= 0 or not finite; lambda
-/// or alpha * speed that overflows), no_convergence (the slip runs away, or is so stiff that the bounded work does not
-/// reach its end).
+/// Simulates a recording with friction that depends on speed. Errors: parameter_out_of_range (speed <= 0 or not finite;
+/// lambda or alpha * speed that overflows), no_convergence (the slip runs away, or is so stiff that the bounded work
+/// does not reach its end).
 Result<SimulatedTrace> simulate(const Slider& slider, const VelocityFriction& friction, double speed_m_per_s,
                                 const SimulationOptions& options);
 

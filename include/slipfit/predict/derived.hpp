@@ -11,7 +11,7 @@
 
 namespace slipfit {
 
-/// Quantities that follow from the fit or from V and f (docs/model.md says how).
+/// Quantities that follow from the fit or from V and f (docs/model.md defines them).
 struct Derived {
   Estimate lambda, gamma, lambda_critical, critical_speed_m_per_s;
   std::optional<Regime> regime;
@@ -29,12 +29,12 @@ struct Derived {
       measured_spacing_En;  ///< where `Conditions` has a measured spacing: (predicted - measured) / U
 };
 
-/// What the fitted model says at the recording's own speed; the members that are measured without a model are left
-/// empty.
+/// Returns the predictions of the fitted model at the recording's own speed; members that are measured without a model
+/// are left empty.
 Derived derive_from_model(const FitResult& fit, const Conditions& conditions);
 
-/// What a sweep says beyond any one speed: where stick-slip ends, by its fit or, where that does not tell it or what
-/// the runs show speaks against it, by the runs. All else belongs to one speed and is left empty.
+/// Returns the end of stick-slip of a sweep, the only derived quantity that does not refer to one speed: by its fit, or
+/// by its recordings if the fit does not determine it or contradicts them. All other members are left empty.
 Derived derive_from_sweep(const FitResult& fit, const ObservedEnd& observed);
 
 }  // namespace slipfit

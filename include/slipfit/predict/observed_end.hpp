@@ -6,15 +6,15 @@
 
 namespace slipfit {
 
-/// What the runs of a sweep show of where stick-slip ends.
+/// The range of speeds in which stick-slip ends, as the recordings of a sweep show it.
 struct ObservedEnd {
   std::optional<double> sticks_m_per_s;  ///< fastest run with stick-slip
   std::optional<double> slides_m_per_s;  ///< slowest run without it that is faster than all with it
 };
 
-/// Where stick-slip ends (m/s), by a fit and by the runs: the interval of the fit is cut to the speeds between the
-/// fastest run that sticks and the slowest beyond it that does not; where the fit tells nothing, or lies outside, it is
-/// theirs.
+/// Returns the speed at which stick-slip ends (m/s), by a fit and by the recordings: the interval of the fit is
+/// restricted to the speeds between the fastest recording that sticks and the slowest faster one that does not; these
+/// speeds replace it if the fit gives no interval or one outside them.
 Estimate with_observed_end(const Estimate& by_fit, const ObservedEnd& observed);
 
 }  // namespace slipfit

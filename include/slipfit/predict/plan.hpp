@@ -10,10 +10,11 @@
 
 namespace slipfit {
 
-/// Whether recordings have one force level, F_k(0+) in the sensor's zero: then it tells F_k(V) too.
+/// States whether the recordings share one force level, F_k(0+) relative to the zero of the sensor; if so, the level
+/// also determines F_k(V).
 enum class LevelSharing { Shared, Separate };
 
-/// What a plan starts from.
+/// The starting point of a plan.
 struct PlanBasis {
   ModelEstimate estimate;                 ///< with its covariance
   std::vector<RecordingPlan> recordings;  ///< that it was fitted to; at least one
@@ -22,13 +23,13 @@ struct PlanBasis {
   LevelSharing levels = LevelSharing::Separate;
 };
 
-/// What shall become narrower: a parameter, or the spacing at a speed.
+/// The quantity whose interval a plan reduces: a parameter, or the spacing at a speed.
 struct PlanTarget {
   std::string name;                     ///< JSON key of a parameter, or "periodic_displacement_m"
   std::optional<double> speed_m_per_s;  ///< of the spacing
 };
 
-/// What keeps a parameter from being known better.
+/// The effect that limits the accuracy of a parameter.
 enum class Limit {
   Noise,     ///< of the samples
   Scatter,   ///< of the static friction from cycle to cycle
@@ -46,7 +47,7 @@ struct ParameterLimit {
   Limit limit = Limit::Cycles;
 };
 
-/// One more recording, and the standard error of the target with it.
+/// An additional recording, and the standard error of the target with it.
 struct PlanOption {
   RecordingPlan recording;
   double cycles = 0.0;
@@ -63,10 +64,10 @@ struct Plan {
   std::optional<double> halving_s;     ///< duration of the best option that halves the standard error
 };
 
-/// Which recording to make next. The fit's own standard errors fall in the ratio in which Fisher information narrows
-/// those calculated for its recordings: with white noise of the same density, scatter of the same size, and onset and
-/// static friction of each cycle for itself. Error bad_target: the model does not have it, the fit holds it, or there
-/// is no stick-slip at the speed of the spacing.
+/// Recommends the next recording. The standard errors of the fit are scaled by the ratio in which Fisher information
+/// reduces those calculated for its recordings, with white noise of the same density, scatter of the same size, and
+/// individual onset and static friction in each cycle. The error is bad_target if the model does not contain the
+/// target, the fit fixed it, or there is no stick-slip at the speed of the spacing.
 Result<Plan> plan_next(const PlanBasis& basis, const std::optional<PlanTarget>& target);
 
 }  // namespace slipfit

@@ -9,10 +9,10 @@
 
 namespace slipfit {
 
-/// One document of the schema slipfit.compare/1 (docs/formats.md), without a trailing newline.
+/// Writes one document of the schema slipfit.compare/1 (docs/formats.md), without a trailing newline.
 std::string to_json(const Comparison& comparison);
 
-/// For people: whether and in what the two sides differ, then every quantity.
+/// Writes a text for people: whether and in which quantities the sides differ, then every quantity.
 std::string to_text(const Comparison& comparison);
 
 /// A recording whose cycles a page shows.
@@ -21,14 +21,14 @@ struct ComparedRecording {
   Analysis analysis;
 };
 
-/// What a page shows beside the comparison.
+/// The information that a page shows in addition to the comparison.
 struct ComparisonOrigin {
   std::string command_line;  ///< as typed; empty: not by command line
-  /// Of result files there are none, and the page has no cycles.
+  /// The traces of the recordings; they are empty for result files, and the page then has no cycles.
   std::vector<ComparedRecording> recordings_a, recordings_b;
 };
 
-/// One self-contained page: cycles of both sides over each other, and the table.
+/// Writes one self-contained page: overlaid cycles of both sides, and the table.
 std::string to_html(const Comparison& comparison, const ComparisonOrigin& origin);
 
 }  // namespace slipfit

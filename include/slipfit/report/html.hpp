@@ -9,13 +9,13 @@
 
 namespace slipfit {
 
-/// What a reader needs to repeat the analysis, beside the recording's own conditions.
+/// The information that a reader needs to repeat the analysis, in addition to the conditions of the recording.
 struct ReportOrigin {
   std::string command_line;  ///< as typed; empty: not by command line
 };
 
-/// One self-contained page: no network, readable on paper (docs/report.md). `analysis` should hold the fitted curve
-/// (`FitOptions::curve`): without it there is no fit on the trace. Text from outside stays text.
+/// Writes one self-contained page that needs no network and can be printed (docs/report.md). `analysis` should contain
+/// the fitted curve (`FitOptions::curve`), which the trace shows. Text from outside is escaped.
 std::string to_html(const Recording& recording, const Analysis& analysis, const Background& background,
                     const ReportOrigin& origin);
 
@@ -24,7 +24,7 @@ struct PictureFile {
   std::string content;
 };
 
-/// The charts of the page as SVG files; those that the recording does not allow are left out.
+/// Returns the charts of the page as SVG files, except those that the recording does not allow.
 std::vector<PictureFile> report_pictures(const Recording& recording, const Analysis& analysis,
                                          const Background& background);
 

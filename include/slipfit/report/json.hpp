@@ -15,8 +15,8 @@ struct JsonOptions {
   JsonLayout layout = JsonLayout::Indented;  ///< OneLine: for a file with one result a line
 };
 
-/// One document of the schema slipfit.fit/1 (docs/fit.schema.json), without a trailing newline. Always valid UTF-8 and
-/// free of NaN and infinity: what is not known, or not finite, is null.
+/// Writes one document of the schema slipfit.fit/1 (docs/fit.schema.json), without a trailing newline. It is valid
+/// UTF-8 without NaN and infinity: unknown or infinite numbers are null.
 std::string to_json(const Recording& recording, const Analysis& analysis, const JsonOptions& options = {});
 
 }  // namespace slipfit

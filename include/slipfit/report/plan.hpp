@@ -7,10 +7,10 @@
 
 namespace slipfit {
 
-/// One document of the schema slipfit.plan/1 (docs/formats.md), without a trailing newline.
+/// Writes one document of the schema slipfit.plan/1 (docs/formats.md), without a trailing newline.
 std::string to_json(const Plan& plan, const PredictionSource& source);
 
-/// For people: what to measure next, and what limits each parameter.
+/// Writes a text for people: what to measure next, and the limits of each parameter.
 std::string to_text(const Plan& plan, const PredictionSource& source);
 
 }  // namespace slipfit

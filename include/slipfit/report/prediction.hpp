@@ -7,7 +7,7 @@
 
 namespace slipfit {
 
-/// Where a prediction comes from, for its reader.
+/// The origin of a prediction, for its reader.
 struct PredictionSource {
   std::string name;                         ///< the fit document's file, or "command line"
   std::vector<std::string> conditional_on;  ///< what the model takes for granted
@@ -15,14 +15,14 @@ struct PredictionSource {
   Warnings warnings = {};                   ///< of the fit
 };
 
-/// One document of the schema slipfit.predict/1 (docs/predict.schema.json), without a trailing newline: valid UTF-8,
-/// what is not known is null.
+/// Writes one document of the schema slipfit.predict/1 (docs/predict.schema.json), without a trailing newline, in valid
+/// UTF-8; unknown values are null.
 std::string to_json(const Prediction& prediction, const PredictionSource& source);
 
-/// For people: the critical speed, then one line a speed with 95 % bands.
+/// Writes a text for people: the critical speed, then one line for each speed with 95 % bands.
 std::string to_text(const Prediction& prediction, const PredictionSource& source);
 
-/// One row a speed: value, low and high of each quantity (docs/formats.md). Unknown cells are empty.
+/// Writes one row for each speed: value, low and high of each quantity (docs/formats.md). Unknown cells are empty.
 std::string prediction_to_csv(const Prediction& prediction);
 
 }  // namespace slipfit

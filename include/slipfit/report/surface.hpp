@@ -6,16 +6,16 @@
 
 namespace slipfit {
 
-/// One document of the schema slipfit.surface/1 (docs/surface.schema.json), without a trailing newline.
+/// Writes one document of the schema slipfit.surface/1 (docs/surface.schema.json), without a trailing newline.
 std::string to_json(const Profile& profile, const Surface& surface);
 
-/// The same for people.
+/// Writes the surface as text for people.
 std::string to_text(const Profile& profile, const Surface& surface);
 
-/// One page with the profile and its ridges. Text from outside stays text.
+/// Writes one page with the profile and its ridges. Text from outside is escaped.
 std::string to_html(const Profile& profile, const Surface& surface, const std::string& command_line);
 
-/// "periodic", "irregular", "none", "undetermined".
+/// Returns "periodic", "irregular", "none" or "undetermined".
 std::string name_of(SurfaceStatus status);
 
 }  // namespace slipfit

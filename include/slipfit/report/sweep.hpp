@@ -8,14 +8,15 @@
 
 namespace slipfit {
 
-/// The document of a fit of a sweep: as that of one recording, with `recordings` in place of `recording`
+/// Writes the document of a fit of a sweep: as that of one recording, with `recordings` instead of `recording`
 /// (docs/formats.md). `options.id` names the group.
 std::string to_json(std::span<const SweepEntry> entries, const SweepAnalysis& sweep, const JsonOptions& options = {});
 
-/// The same on one screen, as `to_summary` of a recording.
+/// Writes the summary of a sweep on one screen, like `to_summary` of a recording.
 std::string to_summary(std::span<const SweepEntry> entries, const SweepAnalysis& sweep, const std::string& name);
 
-/// All results as text: shared parameters, the recordings over speed, what a fit without each of them predicts for it.
+/// Writes all results as text: shared parameters, the recordings against speed, and the prediction for each of them by
+/// a fit without it.
 std::string to_text(std::span<const SweepEntry> entries, const SweepAnalysis& sweep, const std::string& name);
 
 }  // namespace slipfit

@@ -7,11 +7,11 @@
 
 namespace slipfit {
 
-/// What an engineer reads first, on one screen: at most 25 lines of 100 characters with the kind of motion, parameters,
-/// spacing and critical speed with intervals and statuses, and the warnings with the largest effect.
+/// Writes the summary, on one screen: at most 25 lines of 100 characters with the kind of motion, parameters, spacing
+/// and critical speed with intervals and statuses, and the warnings with the largest effect.
 std::string to_summary(const Recording& recording, const Analysis& analysis);
 
-/// All results as text: kind of motion, parameters with intervals and status, spacing (measured, kept apart from
+/// Writes all results as text: kind of motion, parameters with intervals and status, spacing (measured, separate from
 /// predicted), warnings.
 std::string to_text(const Recording& recording, const Analysis& analysis);
 

@@ -9,7 +9,7 @@
 
 namespace slipfit {
 
-/// One slip as the detector sees it: the force falls from the peak to the trough. Forces in the unit of the column.
+/// A slip as detected: the force falls from the peak to the trough. Forces are in the unit of the column.
 struct DetectedSlip {
   std::size_t peak = 0;     ///< sample index of the turning point before the fall
   std::size_t trough = 0;   ///< sample index of the turning point after it
@@ -34,19 +34,19 @@ struct Segmentation {
   std::vector<double> mains_Hz;     ///< lines that were taken off the force before looking
 };
 
-/// Slips are sudden falls after slow rises, found at their own time scale: the level may wander, noise and quantisation
-/// below the hysteresis count for nothing, isolated impulses are passed over, ringing after a slip belongs to it. Waves
-/// have falls too, as slow as their rises. Fewer than one fall larger than the noise: no slips. `scale`: samples that
-/// smoothed_over of a recording with the same slips tells; all scales are tried without it.
+/// Detects slips, which are sudden falls after slow rises, at their own time scale: the level may wander, noise and
+/// quantisation below the hysteresis are ignored, isolated impulses are skipped, and ringing after a slip belongs to
+/// it. Waves have falls, too, as slow as their rises. There are no slips without a fall larger than the noise. `scale`
+/// is the number of samples smoothed over in a recording with the same slips; without it all scales are tried.
 Segmentation find_slips(const Recording& recording, const Quality& quality,
                         std::optional<std::size_t> scale = std::nullopt);
 
-/// Hum whose swing is below this share of a drop moves no turning point beyond the hysteresis; the fit finds it in the
-/// residuals.
+/// Hum whose amplitude is below this share of a drop moves no turning point beyond the hysteresis; the fit finds it in
+/// the residuals.
 inline constexpr double kHarmlessHum = 0.1;
 
-/// The same on the recording without its mains lines, where they are large enough to hide slips or to pass for them
-/// (`seen`: the slips as it stands). Empty otherwise, and where nothing is left.
+/// Detects slips in the recording without its mains lines, if they are large enough to conceal slips or to resemble
+/// them (`seen`: the slips without subtraction). The result is empty otherwise, and if no slips remain.
 std::optional<Segmentation> find_slips_beneath_hum(const Recording& recording, const Quality& quality,
                                                    const Segmentation& seen);
 

@@ -8,7 +8,8 @@
 
 namespace slipfit {
 
-/// What is wrong with a recording, counted. Nothing here is mended: fit/ masks what it must, warnings say so.
+/// The counts of defects of a recording. Nothing is corrected here: fit/ masks samples where necessary, and warnings
+/// report it.
 struct Quality {
   double noise_rms = 0.0;  ///< white-noise level from differences (at least that of rounding), unit of the force column
   std::optional<double> quantisation_step;  ///< set where all values lie on one lattice coarser than the noise

@@ -8,7 +8,7 @@
 
 namespace slipfit {
 
-/// Whether a pattern on a surface is the one that a force trace tells of.
+/// The comparison of a pattern on a surface with the spacing of a force trace.
 struct SpacingComparison {
   Estimate En;     ///< ISO 13528: surface less force over the root of the squared 95 % reaches; within +-1 they agree
   Estimate ratio;  ///< surface over force
@@ -18,7 +18,7 @@ SpacingComparison compare_spacings(const Estimate& by_force_m, const Estimate& o
 
 WornTrack worn_track_of(const Profile& profile, const Surface& surface);
 
-/// The conditions with the track in this file measured; as they are where no file is named. Errors: those of
+/// Returns the conditions with the measured track in this file; unchanged if no file is given. Errors: those of
 /// `read_profile` and `measure_surface`.
 Result<Conditions> with_worn_track(Conditions conditions, const std::filesystem::path& file);
 

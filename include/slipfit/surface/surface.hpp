@@ -12,7 +12,7 @@
 
 namespace slipfit {
 
-/// Heights along a worn track at equal distances; not a number where nothing was measured.
+/// Heights along a worn track at equal distances; NaN where nothing was measured.
 struct Profile {
   std::string file;
   double pitch_m = 0.0;
@@ -20,13 +20,14 @@ struct Profile {
   bool height_in_metres = true;     ///< false: grey values of an image, or heights without a unit
   std::size_t rows = 1;             ///< averaged across the direction of sliding
   std::optional<double> along_rad;  ///< direction of sliding from the x axis of an areal measurement
-  /// Samples after which what coded the file repeats (the blocks of JPEG): a spacing equal to it is none.
+  /// The number of samples after which the encoding of the file repeats (the blocks of JPEG): a spacing equal to it is
+  /// not reported.
   std::optional<double> block_samples;
   std::vector<std::string> assumed;
   std::vector<InputFile> inputs;  ///< that were read
 };
 
-/// What the user says about the file; everything left empty is found out, and said in `Profile::assumed`.
+/// Properties of the file that the user states; everything left empty is detected and listed in `Profile::assumed`.
 struct ProfileOptions {
   std::optional<double> unit_m;         ///< of lengths and heights of a text without units
   std::optional<double> pitch_m;        ///< of a text of heights alone
@@ -36,15 +37,15 @@ struct ProfileOptions {
   std::optional<std::string> z_column;
 };
 
-/// A text with heights, X3P (ISO 25178-72), SDF (ISO 25178-71), PNG, TIFF or JPEG. Errors carry file and remedy in one
-/// line; docs/formats.md lists their codes.
+/// Reads a text with heights, X3P (ISO 25178-72), SDF (ISO 25178-71), PNG, TIFF or JPEG. Errors contain file and remedy
+/// in one line; docs/formats.md lists their codes.
 Result<Profile> read_profile(const std::filesystem::path& file, const ProfileOptions& options = {});
 
-/// What repeats along the profile. Periodic: distances scatter by less than a fifth; irregular: by more, the mean is
-/// known all the same; none: nothing more regular than on a random surface; undetermined: something, but not enough.
+/// The pattern along the profile. Periodic: distances scatter by less than a fifth; irregular: by more, but the mean is
+/// known; none: nothing more regular than on a random surface; undetermined: a pattern without sufficient evidence.
 enum class SurfaceStatus { Periodic, Irregular, None, Undetermined };
 
-/// What tells the spacing: the ridges, or the lines of the spectrum.
+/// The method that determined the spacing: the ridges, or the lines of the spectrum.
 enum class SurfaceMethod { Ridges, Comb };
 
 struct Surface {
@@ -65,7 +66,7 @@ struct Surface {
   Warnings warnings;
 };
 
-/// Errors: too_few_points, constant_profile, too_many_holes, too_few_ridges.
+/// Measures the pattern of a profile. Errors: too_few_points, constant_profile, too_many_holes, too_few_ridges.
 Result<Surface> measure_surface(const Profile& profile);
 
 }  // namespace slipfit

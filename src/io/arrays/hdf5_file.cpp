@@ -53,13 +53,13 @@ bool has_huge_chunks(hid_t dataset, hid_t type) {
   return bytes > static_cast<double>(kMostChunkBytes);
 }
 
-/// Whether reading the numbers, or even asking for the extents, would open another file. H5Dopen2 itself opens none.
+/// Returns true if reading the numbers, or even the extents, would open another file. H5Dopen2 itself opens none.
 bool is_in_other_file(hid_t dataset) {
   const Handle settings(H5Dget_create_plist(dataset), H5Pclose);
   return H5Pget_layout(settings) == H5D_VIRTUAL || H5Pget_external_count(settings) != 0;
 }
 
-/// What the file holds, and what it only refers to.
+/// The data in the file and its references to other files.
 struct Contents {
   std::vector<ArrayShape> arrays;
   std::vector<std::string> in_other_files;  ///< paths of datasets and links
@@ -139,9 +139,9 @@ std::string unit_of(hid_t dataset) {
 std::vector<double> read_as(hid_t dataset, hid_t type, std::uint64_t count) {
   std::vector<double> values(static_cast<std::size_t>(count), std::numeric_limits<double>::quiet_NaN());
   if (H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0) {
-    throw Refusal({"damaged_container",
-                   "the numbers in the HDF5 file are damaged, or packed by a filter that is not "
-                   "installed; export it again"});
+    throw Refusal(
+        {"damaged_container",
+         "the numbers in the HDF5 file are damaged or compressed by a filter that is not installed; export it again"});
   }
   return values;
 }
@@ -201,7 +201,7 @@ void refuse_other_files(const Contents& contents, const std::optional<std::strin
     throw Refusal({"data_in_other_file", "the numbers of '" + path +
                                              "' are in another file (virtual, external or linked), which is not " +
                                              "opened; save all numbers in one file" +
-                                             (variable ? "" : ", or choose with --variable what this file holds")});
+                                             (variable ? "" : ", or choose with --variable a dataset of this file")});
   }
 }
 

@@ -21,7 +21,7 @@
 namespace slipfit::reading {
 namespace {
 
-/// What the bytes of an element are: numbers of one kind, or elements.
+/// The type of the bytes of an element: numbers of one kind, or elements.
 enum class MatType : std::uint32_t {
   Int8 = 1,
   UInt8 = 2,
@@ -81,7 +81,7 @@ std::vector<MatElement> mat_elements(std::string_view bytes, MatOrder order) {
   while (!bytes.empty()) {
     if (bytes.size() < kTag) refuse_damaged_mat();
     const auto first = number_at<std::uint32_t>(bytes.data(), order);
-    const bool is_small = first >> 16U != 0;  // up to four bytes, which stand in the tag itself
+    const bool is_small = first >> 16U != 0;  // up to four bytes, which are in the tag itself
     const std::size_t size = is_small ? first >> 16U : number_at<std::uint32_t>(bytes.data() + kHalf, order);
     const auto type = static_cast<MatType>(is_small ? first & 0xFFFFU : first);
     const std::size_t begin = is_small ? kHalf : kTag;
@@ -136,7 +136,7 @@ std::string inflated(std::string_view packed) {
     if (status != Z_OK && status != Z_STREAM_END) refuse_damaged_mat();
     if (is_bomb(bytes.size(), packed.size())) {
       throw Refusal(
-          {"container_too_large", "the .mat file unpacks to far more than a recording holds; save a part of it"});
+          {"container_too_large", "the .mat file decompresses to far more than a recording; save a part of it"});
     }
   }
   return bytes;
@@ -171,7 +171,7 @@ std::string name_in(const MatElement& element) {
   return std::string(element.data.substr(0, std::min(element.data.find('\0'), kLongestName)));
 }
 
-/// Empty for an array of another class, or of more than two extents, or none of numbers.
+/// Returns an array, or nothing for an array of another class, with more than two dimensions, or without numbers.
 std::optional<MatArray> read_array(const MatElement& matrix) {
   constexpr double kMost = 1024.0 * 1024 * 1024 * 1024;  // above it products of extents may overflow
   constexpr std::uint32_t kComplex = 0x800;
@@ -211,14 +211,14 @@ std::vector<MatArray> fields_of(const MatArray& array) {
   return fields;
 }
 
-/// Of an array of real numbers; `group` is the structure that holds it, or empty.
+/// A function that receives an array of real numbers; `group` is the structure that contains it, or empty.
 using Take = std::function<void(const MatArray& array, const std::string& group)>;
 
 void take_if_numbers(const MatArray& array, const std::string& group, const Take& take) {
   if (array.kind != kStruct && !array.is_complex && !array.name.empty()) take(array, group);
 }
 
-/// All arrays of real numbers in the file, in the order in which they stand there; the bytes of one variable at a time.
+/// All arrays of real numbers in the file, in their order; the bytes of one variable at a time.
 void visit_arrays(std::string_view file, const Take& take) {
   if (file.size() < kHeaderBytes) refuse_damaged_mat();
   const std::string_view mark = file.substr(kHeaderBytes - 2, 2);  // the number 0x4D49, written as any other

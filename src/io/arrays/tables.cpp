@@ -55,7 +55,7 @@ bool is_better(const TableShape& a, const TableShape& b) {
   return a_is_table != b_is_table ? a_is_table : numbers_in(a) > numbers_in(b);
 }
 
-/// By an array, or by the group of its vectors.
+/// Returns true if --variable can name the table, by an array or by the group of its vectors.
 bool can_be_named(const TableShape& table) {
   return table.arrays.size() == 1 || !table.arrays.front().group.empty();
 }
@@ -76,7 +76,7 @@ TableShape wanted_table(const std::vector<ArrayShape>& arrays, const std::string
     best = std::move(table);
   }
   if (best) return *std::move(best);
-  throw Refusal({"unknown_variable", "the file holds no numbers in '" + variable + "' but in " + listed(arrays) +
+  throw Refusal({"unknown_variable", "the file contains no numbers in '" + variable + "' but in " + listed(arrays) +
                                          "; choose one with --variable"});
 }
 
@@ -92,8 +92,8 @@ TableShape choose_table(const std::vector<ArrayShape>& arrays, const std::option
                         std::uint64_t file_size) {
   if (arrays.empty()) {
     throw Refusal({"unknown_variable",
-                   "the file holds no array of numbers (tables and other objects of MATLAB are none); "
-                   "export it as a matrix or CSV"});
+                   "the file contains no array of numbers (MATLAB tables and other objects are not read); export it as "
+                   "a matrix or CSV"});
   }
   TableShape chosen;
   if (variable) {
@@ -105,7 +105,7 @@ TableShape choose_table(const std::vector<ArrayShape>& arrays, const std::option
   if (is_too_large(chosen, file_size)) {
     throw Refusal({"container_too_large",
                    "'" + chosen.name +
-                       "' is said to hold far more than the file, or than a recording; export a part of it as CSV"});
+                       "' claims to contain far more than the file or than a recording; export a part of it as CSV"});
   }
   return chosen;
 }

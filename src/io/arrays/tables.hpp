@@ -12,7 +12,7 @@
 
 namespace slipfit::reading {
 
-/// What is wrong with a file; the message does not name it.
+/// A defect of a file; the message does not contain its name.
 class Refusal : public ThrownError {
  public:
   using ThrownError::ThrownError;
@@ -44,16 +44,17 @@ struct TableShape {
 TableShape choose_table(const std::vector<ArrayShape>& arrays, const std::optional<std::string>& variable,
                         std::uint64_t file_size);
 
-/// Whether --variable WANTED names `name`: "/run/force" is also "run/force" and, as MATLAB writes it, "run.force".
+/// Returns true if --variable WANTED names `name`: "/run/force" is also "run/force" and, as MATLAB writes it,
+/// "run.force".
 bool is_called(const std::string& name, std::string wanted);
 
-/// The columns of an array that stands in memory row by row, or column by column; the longer extent is that of the
+/// The columns of an array that is stored row by row, or column by column; the longer extent is that of the
 /// rows.
 void add_columns(NumberTable& table, const ArrayShape& shape, const std::vector<double>& values,
                  const std::string& name);
 
-/// Those that --variable can name, each name once, of which a recording may be made: at least two columns and 16 rows.
-/// Without any the one that choose_table takes. Throws Refusal.
+/// Returns the tables that --variable can name, each name once, from which a recording can be made: at least two
+/// columns and 16 rows. Without any it returns the one that choose_table takes. Throws Refusal.
 std::vector<TableShape> recordable_tables(const std::vector<ArrayShape>& arrays, std::uint64_t file_size);
 
 /// A table that was read, and the names of all that could have been.
@@ -70,7 +71,7 @@ ReadTable read_hdf5(std::string_view file, const std::optional<std::string>& var
 /// Called with the name of a table and what reads it, which may throw Refusal.
 using TakeTable = std::function<void(const std::string& name, const std::function<NumberTable()>& read)>;
 
-/// All recordable tables of such a file.
+/// Takes all recordable tables of such a file.
 void take_all_of_mat(std::string_view file, const TakeTable& take);
 void take_all_of_hdf5(std::string_view file, const TakeTable& take);
 

@@ -27,16 +27,16 @@ class ByteStream {
   virtual std::size_t read(char* buffer, std::size_t size) = 0;
 };
 
-/// All bytes; empty where there are more than `most`.
+/// Returns all bytes, or nothing if there are more than `most`.
 std::optional<std::string> read_all(ByteStream& stream, std::size_t most);
 
-/// What in a container is the recording.
+/// The part of a container that is the recording.
 struct ContainerChoice {
   std::optional<std::string> sheet;     ///< of a workbook, or the file of a zip archive: name or 1-based number
   std::optional<std::string> variable;  ///< of a .mat file, dataset of HDF5, group of TDMS
 };
 
-/// How a choice names the tables of a file: by a sheet, by a variable, or not at all since there is one.
+/// The option that selects a table of a file: a sheet, a variable, or none because there is only one table.
 enum class TableKind { One, Sheet, Variable };
 
 /// The text in a file, whatever it is packed in.
@@ -68,7 +68,7 @@ struct PackedTable {
 /// Called with the tables of a container one after another; the text of one is not read after the call.
 using TableVisitor = std::function<void(const PackedTable& table)>;
 
-/// Of a file that open_plain opened.
+/// Returns the kind of tables in a file that open_plain opened.
 TableKind table_kind_of(const TextStream& file);
 
 /// Visits the tables of a container, whose bytes are read once. Errors: those of containers.

@@ -13,7 +13,8 @@
 
 namespace slipfit::reading {
 
-/// `packed`: the bytes of the whole file, which are read once; `name`: as messages show it.
+/// A function that opens a container. `packed` contains the bytes of the whole file, which are read once; messages show
+/// `name`.
 using OpenFormat = TextStream(TextStream packed, const std::string& name, const ContainerChoice& choice);
 
 /// Visits all tables of the container.
@@ -30,7 +31,7 @@ OpenFormat open_gzip;
 /// unknown_sheet.
 OpenFormat open_zip;
 
-/// Errors: damaged_container, container_too_large, unknown_variable, daqmx_channels.
+/// Opens a TDMS file. Errors: damaged_container, container_too_large, unknown_variable, daqmx_channels.
 OpenFormat open_tdms;
 
 /// HDF5 and MATLAB 7.3; MATLAB 5 to 7. Errors: not_built_in, damaged_container, container_too_large, unknown_variable.
@@ -40,7 +41,7 @@ OpenFormat open_mat;
 /// The binary format of before 2007. Error: old_workbook.
 OpenFormat open_old_workbook;
 
-/// All bytes, for formats that are read here and there. Error: container_too_large.
+/// Returns all bytes, for formats that are read in no fixed order. Error: container_too_large.
 std::string read_all(TextStream& packed, const std::string& name);
 
 /// A program of slipfit that reads what needs large libraries: its name, and what it takes to be built.

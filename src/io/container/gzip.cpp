@@ -76,14 +76,14 @@ class GzipStream final : public ByteStream {
 TextStream open_gzip(TextStream packed, const std::string& name, const ContainerChoice& /*choice*/) {
   packed.bytes = std::make_unique<GzipStream>(std::move(packed.bytes), name);
   packed.size = 0;
-  packed.assumed.emplace_back("The file is packed (gzip).");
+  packed.assumed.emplace_back("The file is compressed (gzip).");
   return packed;
 }
 
 #else
 
 TextStream open_gzip(TextStream /*packed*/, const std::string& name, const ContainerChoice& /*choice*/) {
-  throw not_built_in(name, "packed with gzip", "zlib1g-dev and libminizip-dev");
+  throw not_built_in(name, "compressed with gzip", "zlib1g-dev and libminizip-dev");
 }
 
 #endif

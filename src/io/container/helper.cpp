@@ -24,7 +24,7 @@
 namespace slipfit::reading {
 namespace {
 
-/// What a program writes to its standard output; the program ends with the stream.
+/// The standard output of a program as a stream; the program ends with the stream.
 class ProgramStream final : public ByteStream {
  public:
   ProgramStream(::pid_t process, FileHandle pipe, std::string name, std::chrono::milliseconds longest_wait)
@@ -92,10 +92,10 @@ class ProgramStream final : public ByteStream {
     if (status == 0) return;
     const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
     if (signal == SIGTERM || signal == SIGINT || signal == SIGHUP) {
-      throw ThrownError({"not_readable", name_ + ": the program that reads it was stopped by another one (" +
+      throw ThrownError({"not_readable", name_ + ": the program that reads it was stopped by another program (" +
                                              ::strsignal(signal) + "); read it again"});
     }
-    throw damaged(name_, "the file is damaged, or asks for too much memory or time");
+    throw damaged(name_, "the file is damaged or needs too much memory or time");
   }
 
   ::pid_t process_;
@@ -105,7 +105,8 @@ class ProgramStream final : public ByteStream {
   bool ended_ = false;
 };
 
-/// Of the program or the shared library that this code is part of: a program of another language may have loaded it.
+/// Returns the folder of the program or shared library that contains this code; a program in another language may have
+/// loaded it.
 std::filesystem::path folder_of_this_code() {
   static constexpr char kHere = '\0';
   Dl_info place{};
@@ -124,8 +125,8 @@ std::vector<std::filesystem::path> folders_of_variable(const char* name) {
   return folders;
 }
 
-/// Where the helpers may be: where the user says so; near this program or library; where this build is installed; near
-/// the programs on the PATH, for a program of another place that slipfit's library is part of.
+/// Returns the folders in which helpers may be: the one stated by the user; near this program or library; where this
+/// build is installed; near the programs on the PATH, for a program elsewhere that contains slipfit's library.
 std::vector<std::filesystem::path> helper_folders() {
   std::vector<std::filesystem::path> folders = folders_of_variable("SLIPFIT_HELPERS");
   std::error_code error;
@@ -143,16 +144,16 @@ std::string find_helper(const Helper& helper, const std::string& name) {
     const auto program = folder / helper.program;
     if (program.is_absolute() && ::access(program.c_str(), X_OK) == 0) return program.string();
   }
-  throw ThrownError({"not_built_in", name + ": " + helper.kind + ", which the program " + helper.program +
-                                         " reads, and that is not found; install it (it is built with Debian's " +
-                                         helper.package + "), set SLIPFIT_HELPERS to its folder, or export the file " +
-                                         "as text"});
+  throw ThrownError(
+      {"not_built_in", name + ": " + helper.kind + ", which the program " + helper.program +
+                           " reads, but that program was not found; install it (it is built with Debian's " +
+                           helper.package + "), set SLIPFIT_HELPERS to its folder, or export the file " + "as text"});
 }
 
 constexpr int kDescriptorOfHelper = 3;  // kFileOfHelper
 
-/// How a program is started: with the standard streams that it needs and without signals that this one ignores or
-/// blocks.
+/// Settings with which a program is started: with the standard streams that it needs and without the signals that this
+/// one ignores or blocks.
 class SpawnSettings {
  public:
   SpawnSettings(int input, int output) {
@@ -196,7 +197,7 @@ std::unique_ptr<ProgramStream> start(const Helper& helper, const FileHandle& inp
   const std::string program = find_helper(helper, name);
   const std::array<int, 2> ends = platform::open_pipe();
   FileHandle read_end(ends[0]);
-  if (!read_end) throw ThrownError({"not_readable", name + ": no pipe can be made; close programs"});
+  if (!read_end) throw ThrownError({"not_readable", name + ": no pipe can be created; close other programs"});
   const FileHandle write_end(ends[1]);
   const ::pid_t process = SpawnSettings(input.get(), write_end.get()).start(program, helper.arguments);
   if (process != 0) return std::make_unique<ProgramStream>(process, std::move(read_end), name, helper.longest_wait);
@@ -239,7 +240,7 @@ class TablePieces {
     while (text.size() < kLongest && bytes_->read(&c, 1) == 1 && c != '\n') text += c;
     return text;
   }
-  /// Of the table whose name was read. Error: what its first line says.
+  /// Starts the table whose name was read. The error is that of its first line.
   void begin() { next_piece(); }
   std::size_t read(char* buffer, std::size_t size) {
     std::size_t count = 0;

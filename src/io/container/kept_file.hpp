@@ -9,14 +9,14 @@
 
 namespace slipfit::reading {
 
-/// All bytes of a stream as a file without a name; `name`: as messages show it. Error: container_too_large.
+/// Writes all bytes of a stream into a file without a name; messages show `name`. Error: container_too_large.
 FileHandle file_in_memory(ByteStream& stream, const std::string& name);
 
 /// Opens a file of many tables once for several of them: its bytes and their digest stay in memory until another file
 /// is opened, or the file has changed.
 class KeptFile {
  public:
-  /// As open_plain, and container_too_large.
+  /// Opens a file like open_plain; it can also fail with container_too_large.
   TextStream open(const std::filesystem::path& file);
 
  private:

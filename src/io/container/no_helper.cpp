@@ -9,7 +9,7 @@
 namespace slipfit::reading {
 namespace {
 
-/// What `work()` returns; a Refusal gets the name of the file.
+/// Returns the value of `work()`; a Refusal gets the name of the file.
 template <class Work>
 auto with_name(const std::string& name, const Work& work) {
   try {

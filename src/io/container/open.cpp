@@ -59,7 +59,7 @@ TextStream open_bytes(const std::filesystem::path& file) {
   const std::string name = name_of_file(file);
   std::error_code ignored;
   if (std::filesystem::is_directory(file, ignored)) {
-    throw ThrownError({"is_directory", name + ": is a folder; name a file in it"});
+    throw ThrownError({"is_directory", name + ": is a folder; give a file in it"});
   }
   std::FILE* const opened = file == "-" ? ::fdopen(::dup(STDIN_FILENO), "rb") : std::fopen(file.c_str(), "rb");
   if (opened == nullptr) throw open_error(name, errno);
@@ -94,7 +94,7 @@ using namespace std::string_view_literals;
 constexpr std::string_view kSheet = "--sheet";
 constexpr std::string_view kVariable = "--variable";
 constexpr std::array kFormats = std::to_array<Format>({
-    {"\x1F\x8B"sv, 0, open_gzip, nullptr, "text packed with gzip", {}},
+    {"\x1F\x8B"sv, 0, open_gzip, nullptr, "text compressed with gzip", {}},
     {"PK\x03\x04"sv, 0, open_zip, visit_zip, "a workbook or a zip archive", kSheet},
     {"TDSm"sv, 0, open_tdms, visit_tdms, "a TDMS file", kVariable},
     {"\x89HDF\r\n\x1a\n"sv, 0, open_hdf5, visit_hdf5, "an HDF5 file", kVariable},
@@ -132,7 +132,7 @@ ThrownError damaged(const std::string& name, const std::string& what) {
 ThrownError too_large(const std::string& name) {
   return ThrownError(
       {"container_too_large",
-       name + ": unpacks to far more than a recording holds; unpack it yourself and give the file in it"});
+       name + ": decompresses to far more than a recording; decompress it yourself and give the file in it"});
 }
 
 ThrownError not_built_in(const std::string& name, const std::string& kind, const std::string& package) {
@@ -143,8 +143,9 @@ ThrownError not_built_in(const std::string& name, const std::string& kind, const
 }
 
 TextStream open_old_workbook(TextStream /*packed*/, const std::string& name, const ContainerChoice& /*choice*/) {
-  throw ThrownError({"old_workbook", name + ": a workbook in the format of before 2007 (.xls), or another document of "
-                                            "that kind; save it as .xlsx or CSV"});
+  throw ThrownError(
+      {"old_workbook",
+       name + ": a workbook in the format used before 2007 (.xls) or a similar document; save it as .xlsx or CSV"});
 }
 
 TextStream open_plain(const std::filesystem::path& file) {

@@ -17,10 +17,10 @@ struct NumberTable {
 /// The table as CSV with a line of names. Each number reads back as the same double.
 std::unique_ptr<ByteStream> text_of(NumberTable table);
 
-/// Text that stands in memory.
+/// Text in memory.
 std::unique_ptr<ByteStream> text_of(std::string text);
 
-/// As one cell of CSV: on one line, in quotes where it must be.
+/// Returns the text as one cell of CSV: on one line, in quotes if necessary.
 std::string csv_cell(std::string_view text);
 
 }  // namespace slipfit::reading

@@ -13,7 +13,7 @@
 namespace slipfit::reading {
 namespace {
 
-/// "Group" and "Channel" of "/'Group'/'Channel'"; a quote in a name stands twice. Empty where there is no such part.
+/// "Group" and "Channel" of "/'Group'/'Channel'"; a quote in a name is doubled. Empty where there is no such part.
 std::pair<std::string, std::string> names_in(const std::string& path) {
   std::vector<std::string> parts;
   for (std::size_t i = 0; i < path.size(); ++i) {
@@ -57,7 +57,7 @@ std::map<std::string, std::size_t> values_by_group(const std::vector<TdmsChannel
   for (const TdmsChannel& channel : channels) {
     if (!channel.values.empty()) values[names_in(channel.path).first] += channel.values.size();
   }
-  if (values.empty()) throw damaged(name, "the TDMS file holds no channel of numbers");
+  if (values.empty()) throw damaged(name, "the TDMS file contains no channel of numbers");
   return values;
 }
 
@@ -74,10 +74,10 @@ std::string choose_group(const std::map<std::string, std::size_t>& values, const
   if (choice.variable) {
     if (values.contains(*choice.variable)) return *choice.variable;
     throw ThrownError(
-        {"unknown_variable", fmt::format("{}: the TDMS file holds no group '{}' with numbers but '{}'; choose "
-                                         "one with --variable",
-                                         name, printable(*choice.variable),
-                                         printable(fmt::format("{}", fmt::join(names_of(values), "', '"))))});
+        {"unknown_variable",
+         fmt::format("{}: the TDMS file contains no group '{}' with numbers, only '{}'; choose one with --variable",
+                     name, printable(*choice.variable),
+                     printable(fmt::format("{}", fmt::join(names_of(values), "', '"))))});
   }
   return std::ranges::max_element(values, [](const auto& a, const auto& b) { return a.second < b.second; })->first;
 }
@@ -89,9 +89,9 @@ TdmsContent read_file(TextStream packed, const std::string& name) {
   for (const TdmsChannel& channel : tdms->channels) {
     if (!channel.is_daqmx && !channel.is_scaled) continue;
     throw ThrownError(
-        {"daqmx_channels", fmt::format("{}: channel '{}' holds raw DAQmx data, whose scale is not read; export "
-                                       "it as scaled values or CSV",
-                                       name, printable(names_in(channel.path).second))});
+        {"daqmx_channels",
+         fmt::format("{}: channel '{}' contains raw DAQmx data, whose scale is not read; export scaled values or CSV",
+                     name, printable(names_in(channel.path).second))});
   }
   return *std::move(tdms);
 }

@@ -28,7 +28,7 @@ constexpr std::uint32_t kNoData = 0xFFFFFFFF;
 constexpr std::uint32_t kFormatChanging = 0x00001269;
 constexpr std::uint32_t kDigitalLine = 0x0000126A;
 
-/// What is cut off or lies about its size.
+/// Thrown for files that are truncated or state a wrong size.
 struct Damaged {};
 
 /// Reads from front to end; throws Damaged beyond it.

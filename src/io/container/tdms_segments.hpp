@@ -10,7 +10,7 @@ namespace slipfit::reading {
 
 constexpr std::uint32_t kTdmsTimeStamp = 0x44;
 
-/// A channel with its values, and where the reader stands with it.
+/// A channel with its values, and the position of the reader in it.
 struct TdmsChannel {
   std::string path;
   std::string unit;
@@ -30,7 +30,7 @@ struct TdmsContent {
   std::uint64_t bytes_left_over = 0;  ///< of a block that is not whole, which a writer that was stopped leaves
 };
 
-/// Empty where the file is cut off elsewhere than between values, or damaged.
+/// Returns the contents of a TDMS file, or nothing if it is damaged or truncated other than between values.
 std::optional<TdmsContent> read_tdms(std::string_view file);
 
 }  // namespace slipfit::reading

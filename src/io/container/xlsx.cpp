@@ -31,10 +31,10 @@ constexpr std::size_t kMostColumns = 16384;  // of Excel
 constexpr std::size_t kMostRows = 1048576;   // of Excel
 constexpr std::size_t kMostSheets = 4096;
 
-/// What the style of a cell makes of its number.
+/// The meaning of a number according to the style of its cell.
 enum class DateStyle { None, Date, Clock };
 
-/// The day that number 0 stands for.
+/// The day that number 0 represents.
 enum class DateSystem { Since1900, Since1904 };
 
 struct Sheet {
@@ -81,13 +81,13 @@ pugi::xml_document part_of(const ZipArchive& archive, const std::string& path, s
   return *std::move(document);
 }
 
-/// By the number of one of Excel's own formats (ECMA-376 part 1, 18.8.30).
+/// Returns the style of one of Excel's own formats by its number (ECMA-376 part 1, 18.8.30).
 DateStyle built_in_date_style(unsigned format) {
   if ((format >= 18 && format <= 21) || (format >= 45 && format <= 47)) return DateStyle::Clock;
   return format >= 14 && format <= 22 ? DateStyle::Date : DateStyle::None;
 }
 
-/// By a format such as "yyyy-mm-dd hh:mm" or "[h]:mm:ss.000".
+/// Returns the style of a format such as "yyyy-mm-dd hh:mm" or "[h]:mm:ss.000".
 DateStyle date_style(std::string_view format) {
   bool has_clock = false;
   for (std::size_t i = 0; i < format.size(); ++i) {
@@ -214,7 +214,7 @@ std::string sheet_text(const pugi::xml_document& sheet, const Workbook& workbook
       width = std::max(width, next);
     }
   }
-  if (width > kMostColumns) throw damaged(name, "a cell of the sheet lies beyond the last column");
+  if (width > kMostColumns) throw damaged(name, "a cell of the sheet is outside the last column");
   std::vector<std::string> cells(width);
   std::size_t copied = 0;  // cells may repeat one long string
   for (const pugi::xml_node row : child(sheet.document_element(), "sheetData")) {
@@ -242,7 +242,7 @@ std::string sheet_text(const pugi::xml_document& sheet, const Workbook& workbook
 namespace {
 
 std::vector<std::string> names_of(const std::vector<Sheet>& sheets, const std::string& name) {
-  if (sheets.empty()) throw damaged(name, "the workbook holds no sheet");
+  if (sheets.empty()) throw damaged(name, "the workbook contains no sheet");
   std::vector<std::string> names;
   names.reserve(sheets.size());
   for (const Sheet& sheet : sheets) names.push_back(sheet.name);
@@ -272,7 +272,7 @@ TextStream open_workbook(const ZipArchive& archive, const std::string& name, con
   stream.assumed.push_back(
       sheets.size() == 1 ? fmt::format("Sheet '{}' of the workbook was read.", printable(chosen.name))
                          : fmt::format("Sheet '{}' of {} in the workbook was read{}.", printable(chosen.name),
-                                       sheets.size(), choice.sheet ? "" : " (the largest; --sheet takes another)"));
+                                       sheets.size(), choice.sheet ? "" : " (the largest; --sheet selects another)"));
   return stream;
 }
 

@@ -17,7 +17,7 @@ namespace slipfit::reading {
 
 #ifdef SLIPFIT_HAS_ZIP
 
-/// What minizip takes for a file.
+/// A file in memory for minizip.
 struct MemoryFile {
   std::string content;
   std::size_t at = 0;
@@ -118,7 +118,7 @@ ZipArchive ZipArchive::open(std::string content, const std::string& name) {
   archive.name_ = name;
   archive.handle_ = std::make_shared<Handle>(std::move(content), name);
   unzFile const file = archive.handle_->file;
-  if (file == nullptr) throw damaged(name, "begins like a zip archive but is none, or is cut off");
+  if (file == nullptr) throw damaged(name, "begins like a zip archive but is not one, or is truncated");
   for (int status = unzGoToFirstFile(file); status == UNZ_OK; status = unzGoToNextFile(file)) {
     unz_file_info64 info{};
     std::array<char, 1024> member{};
@@ -141,9 +141,9 @@ std::unique_ptr<ByteStream> ZipArchive::stream(const std::string& member) const 
   unzFile const file = handle_->file;
   if (find(member) == nullptr || unzLocateFile(file, member.c_str(), 1) != UNZ_OK ||
       unzOpenCurrentFile(file) != UNZ_OK) {
-    throw damaged(name_, fmt::format("'{}' in it cannot be unpacked (encrypted, damaged, or packed by another "
-                                     "method than deflate)",
-                                     printable(member)));
+    throw damaged(name_,
+                  fmt::format("'{}' in it cannot be decompressed (encrypted, damaged, or not compressed with deflate)",
+                              printable(member)));
   }
   return std::make_unique<MemberStream>(file, std::shared_ptr<UnpackingLimit>(handle_, &handle_->limit), name_);
 }
@@ -161,14 +161,14 @@ std::vector<std::string> files_in(const ZipArchive& archive, const std::string& 
   for (const ZipMember& member : archive.members()) {
     if (is_file(member)) names.push_back(member.name);
   }
-  if (names.empty()) throw damaged(name, "the zip archive holds no file");
+  if (names.empty()) throw damaged(name, "the zip archive contains no file");
   return names;
 }
 
 TextStream text_of_member(const ZipArchive& archive, const std::string& member) {
   TextStream text;
   text.bytes = archive.stream(member);
-  text.assumed.push_back(fmt::format("The file is packed (zip): '{}' was read.", printable(member)));
+  text.assumed.push_back(fmt::format("The file is a zip archive: '{}' was read.", printable(member)));
   return text;
 }
 
@@ -184,9 +184,9 @@ TextStream open_zip(TextStream packed, const std::string& name, const ContainerC
   const std::vector<std::string> names = files_in(archive, name);
   if (names.size() > 1 && !choice.sheet) {
     throw ThrownError(
-        {"unknown_sheet", fmt::format("{}: the zip archive holds {} files ({}, {}, ...); unpack it, or name one "
-                                      "with --sheet",
-                                      name, names.size(), printable(names[0]), printable(names[1]))});
+        {"unknown_sheet",
+         fmt::format("{}: the zip archive contains {} files ({}, {}, ...); unpack it, or choose one with --sheet", name,
+                     names.size(), printable(names[0]), printable(names[1]))});
   }
   TextStream text = text_of_member(archive, names[choice.sheet ? find_named(names, *choice.sheet, name) : 0]);
   text.tables = names;
@@ -222,7 +222,7 @@ std::size_t find_named(const std::vector<std::string>& names, const std::string&
   for (std::size_t i = 0; i < std::min(names.size(), kMostListed); ++i) {
     list += fmt::format("{}{} '{}'", i == 0 ? "" : ", ", i + 1, printable(names[i]));
   }
-  throw ThrownError({"unknown_sheet", fmt::format("{}: holds no '{}' but {}{}; choose one with --sheet", file,
+  throw ThrownError({"unknown_sheet", fmt::format("{}: contains no '{}', only {}{}; choose one with --sheet", file,
                                                   printable(wanted), list, names.size() > kMostListed ? ", ..." : "")});
 }
 

@@ -18,7 +18,7 @@ struct ZipMember {
 /// A zip archive open for reading, over minizip.
 class ZipArchive {
  public:
-  /// Of its bytes. Errors: damaged_container, container_too_large.
+  /// Opens an archive from its bytes. Errors: damaged_container, container_too_large.
   static ZipArchive open(std::string content, const std::string& name);
 
   [[nodiscard]] const std::vector<ZipMember>& members() const { return members_; }

@@ -29,7 +29,7 @@ void check_name(const JsonNode& node, const Choices& choices) {
   node.fail("one of " + known);
 }
 
-/// The interval, and the value beside it whose key has the same ending (value_Hz and ci95_Hz).
+/// The interval, and the value next to it whose key has the same ending (value_Hz and ci95_Hz).
 void check_interval(const JsonNode& estimate, const JsonNode& interval, const std::string& ending) {
   if (interval.is_null()) return;
   const std::string expected = "[low, high] with low <= high, or null";

@@ -9,12 +9,12 @@
 
 namespace slipfit::documents {
 
-/// What every reader of a fit document may rely on: its schema; known statuses; values of parameters in their ranges;
-/// standard errors that are not negative; intervals with low <= value <= high; numbers of a size that can be squared
-/// and multiplied. Throws ThrownError with the code bad_document.
+/// Checks the properties that every reader of a fit document relies on: its schema; known statuses; values of
+/// parameters in their ranges; standard errors that are not negative; intervals with low <= value <= high; numbers of a
+/// size that can be squared and multiplied. Throws ThrownError with the code bad_document.
 void check_document(const JsonNode& document);
 
-/// `read(document)` of a checked document, or what was refused.
+/// Returns `read(document)` of a checked document, or the error.
 template <class Value, class Read>
 Result<Value> with_document(const std::string& content, const std::string& name, const Read& read) {
   try {

@@ -20,7 +20,7 @@ struct Row {
 
 constexpr double kLargestLogError = 10.0;  // a factor of e^20 either way, of a parameter that is said to be known
 
-/// Whether the model has the logarithm of the parameter, which a prediction needs to know.
+/// Returns true if the model contains the logarithm of the parameter, which a prediction needs to know.
 bool is_logarithmic(ParameterId id) {
   constexpr std::array kLogarithmic{ParameterId::Stiffness, ParameterId::NaturalFrequency,
                                     ParameterId::FrictionDifference};
@@ -53,7 +53,8 @@ double correlation_between(const JsonNode& matrix, std::size_t i, std::size_t j,
   return i == j ? 1.0 : cell(i, j);
 }
 
-/// Empty where one is null: in the list or, of a model of the four alone, in the parameters.
+/// Returns the standard errors, or nothing if one is null: in the list or, for a model of only four parameters, in the
+/// parameters.
 std::optional<std::vector<double>> standard_errors(const JsonNode& document, const std::vector<Row>& rows,
                                                    std::size_t size) {
   const JsonNode list = document.member("correlation").member("scaled_se");

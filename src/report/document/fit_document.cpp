@@ -65,8 +65,7 @@ PlanBasis plan_basis_from(const JsonNode& document, const std::string& name) {
   const FitDocument fit = documents::fit_document_from(document, name);
   if (!fit.model.has_covariance) {
     throw ThrownError(
-        Error{"no_covariance",
-              fmt::format("{}: has no covariance, and without one there is nothing to narrow", printable(name))});
+        Error{"no_covariance", fmt::format("{}: has no covariance, which a plan needs", printable(name))});
   }
   return plan_basis_of(document, fit.model.estimate);
 }

@@ -32,7 +32,7 @@ json parse_document(const std::string& content, const std::string& name) {
   const auto check_bounds = [&](int depth, json::parse_event_t event, const json& /*parsed*/) {
     const bool is_end = event == json::parse_event_t::object_end || event == json::parse_event_t::array_end;
     if (depth > kDeepest) refuse_document(name, "is nested too deeply for a fit document");
-    if (!is_end && ++values > kMostValues) refuse_document(name, "holds too many values for a fit document");
+    if (!is_end && ++values > kMostValues) refuse_document(name, "contains too many values for a fit document");
     return true;
   };
   try {

@@ -32,19 +32,19 @@ class JsonNode {
   [[nodiscard]] JsonNode member(const std::string& key) const;
   /// The member, where there is one and it is not null.
   [[nodiscard]] std::optional<JsonNode> known(const std::string& key) const;
-  /// The same of a member of that member.
+  /// Returns a member of that member if it is not null.
   [[nodiscard]] std::optional<JsonNode> known(const std::string& key, const std::string& further) const;
-  /// Empty where it is no object.
+  /// Returns the members, or nothing if the node is not an object.
   [[nodiscard]] std::vector<Member> members() const;
   [[nodiscard]] JsonNode element(std::size_t index) const;  ///< index < array_size()
   [[nodiscard]] std::size_t array_size() const;
   [[nodiscard]] std::string text() const;
   /// The value as JSON on one line.
   [[nodiscard]] std::string json_text() const { return content_.dump(); }
-  /// Empty where it is null.
+  /// Returns the number, or nothing if the node is null.
   [[nodiscard]] std::optional<double> number(const std::string& expected = "a number or null") const;
   [[nodiscard]] double positive() const;
-  /// Empty where it is null.
+  /// Returns the flag, or nothing if the node is null.
   [[nodiscard]] std::optional<bool> flag() const;
   [[noreturn]] void fail(const std::string& expected) const;
 

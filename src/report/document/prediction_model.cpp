@@ -54,7 +54,7 @@ double checked_value(const JsonNode& parameter, ParameterId id) {
   return *value;
 }
 
-/// Whether zeta is held by the user, or its interval lies above 0.
+/// Returns true if the user fixed zeta, or if its interval is above 0.
 bool damping_identified(const JsonNode& damping) {
   if (damping.member("status").text() == "fixed") return true;
   const JsonNode bounds = damping.member("ci95");
@@ -64,7 +64,8 @@ bool damping_identified(const JsonNode& damping) {
   return low && *low > 0.0;
 }
 
-/// From the correlation: there it has a value also where the data tell it only together with others.
+/// Returns a value from the correlation, which also contains parameters that the data determine only together with
+/// others.
 double working_value(const std::string& file, const JsonNode& document, const std::string& name) {
   const std::optional<JsonNode> correlation = document.known("correlation");
   if (!correlation) {
@@ -130,9 +131,9 @@ double degrees_of_freedom(const JsonNode& document) {
   return value;
 }
 
-// What stands around the parameters. Documents of earlier versions lack parts of it.
+// The surroundings of the parameters. Documents of earlier versions lack parts of it.
 
-/// Of a sweep.
+/// Returns the speed range of a sweep.
 std::optional<SpeedReach> reach(const JsonNode& document) {
   const auto speeds = document.known("model", "speeds_m_per_s");
   if (!speeds) return std::nullopt;
@@ -143,7 +144,7 @@ std::optional<SpeedReach> reach(const JsonNode& document) {
   return reach;
 }
 
-/// With what a document of one recording leaves open about other speeds.
+/// Adds the uncertainty at other speeds that a document of one recording leaves open.
 ModelEstimate with_single_speed(ModelEstimate estimate, const JsonNode& document) {
   const auto speed = document.known("recording", "speed_m_per_s");
   if (!speed) return estimate;

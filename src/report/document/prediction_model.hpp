@@ -12,20 +12,20 @@
 
 namespace slipfit::documents {
 
-/// `name`: of the document in messages. Throws ThrownError.
+/// Reads the document; messages call it `name`. Throws ThrownError.
 FitDocument fit_document_from(const JsonNode& document, const std::string& name);
 
-/// Without these there is no prediction: the first of ModelEstimate::covariance.
+/// Parameters without which there is no prediction: the first of ModelEstimate::covariance.
 inline constexpr std::span kNeeded = std::span(kModelParameters).first<4>();
 
 std::string key_of(ParameterId id);
 
-/// Of the correlation's matrix; empty where it has none of that name.
+/// Returns the row of the correlation matrix with this name, or nothing.
 std::optional<std::size_t> find_row(const JsonNode& names, const std::string& name);
 /// Refuses a document that has none.
 std::size_t row_of(const JsonNode& names, const std::string& name);
 
-/// From standard errors and correlation; leaves `model` without covariance where the document has none.
+/// Reads the covariance from standard errors and correlation; `model` has none if the document has none.
 void read_covariance(const JsonNode& document, PredictionModel& model);
 
 }  // namespace slipfit::documents

@@ -43,7 +43,7 @@ constexpr std::size_t kFewest = 5;               // values that make a distribut
 constexpr double kDistributionWidth_px = 290.0;  // of a distribution: with its numbers it fills a telephone
 constexpr double kLeastShare = 1e-6;             // of the greatest: below it a value is as good as zero
 
-/// From the most frequent to the rarest.
+/// Statuses with their counts, from the most to the least frequent.
 using StatusCounts = std::vector<std::pair<std::string, std::size_t>>;
 
 bool is_group(const BatchPageRow& row) {
@@ -119,12 +119,12 @@ std::string distributions(const std::vector<BatchPageRow>& rows) {
   }
   if (figures.empty()) return {};
   return section("", "Distributions",
-                 "<p class=\"guide\">How many recordings show which value; only those in which it is known.</p>\n"
-                 "<div class=\"charts\">\n" +
+                 "<p class=\"guide\">Number of recordings with each value, of those in which it is known.</p>\n<div "
+                 "class=\"charts\">\n" +
                      figures + "</div>\n");
 }
 
-/// Of a table that holds the first rows alone.
+/// Returns a note for a table that shows only its first rows.
 std::string left_out_part(std::size_t rows, const char* file) {
   return rows <= kMostRows ? ""
                            : fmt::format("<p>{} more are in {} and not in this table.</p>\n", rows - kMostRows, file);
@@ -137,7 +137,7 @@ std::string failures_part(const std::vector<BatchPageFailure>& failures) {
     rows.push_back({text(failure.id), text(failure.message), "<code>" + text(failure.code) + "</code>"});
   }
   return section(" class=\"flows\"", "Failures",
-                 table(" id=\"failures\"", {"recording", "what is wrong", "code"}, rows) +
+                 table(" id=\"failures\"", {"recording", "reason", "code"}, rows) +
                      left_out_part(failures.size(), "failures.csv"));
 }
 
@@ -154,7 +154,7 @@ std::vector<std::string> codes_in(const Json& warnings) {
   return codes;
 }
 
-/// Empty where it is absent; a bounded parameter keeps its interval alone.
+/// Returns a quantity of a document, or nothing if it is absent; a bounded parameter keeps only its interval.
 BatchPageQuantity quantity_in(const Json& document, const BatchColumn& column) {
   const Json::json_pointer place(column.place);
   const Json json = document.contains(place) ? document.at(place) : Json();

@@ -27,7 +27,8 @@ Figure both_cycles_figure(const ComparisonOrigin& origin) {
   if (has_cycles(sides.front()) && has_cycles(sides.back())) {
     figure.chart = overlay_of(figure.title, sides);
   } else {
-    figure.absent = "Results of fits hold no traces, and steady sliding has no cycles: name the recordings themselves.";
+    figure.absent =
+        "Results of fits contain no traces, and steady sliding has no cycles: give the recordings themselves.";
   }
   return figure;
 }
@@ -52,8 +53,8 @@ std::string quantities_part(const Comparison& comparison) {
   const std::string compared =
       rows.empty()
           ? "<p class=\"absent\">None.</p>\n"
-          : "<p class=\"guide\">In brackets: 95 % intervals. p: that chance alone shows as much where A and B do "
-            "not differ, for all quantities together (Holm; they differ below 0.05), and for each alone.</p>\n" +
+          : "<p class=\"guide\">In brackets: 95 % intervals. p: probability of at least this difference if A and B "
+            "were equal, for all quantities together (Holm; different below 0.05) and for each quantity alone.</p>\n" +
                 table(" class=\"plain-table\"", {"quantity", "differs", "#A", "#B", "#B - A", "#B / A", "#p"}, rows);
   return section(" id=\"quantities\" class=\"flows\"", "What is compared", compared) +
          (absent.empty() ? "" : section(" id=\"absent\"", "What cannot be compared", list(absent)));

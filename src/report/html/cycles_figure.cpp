@@ -110,9 +110,9 @@ Panel panel_of(const Source& source, const Stack& stack, CycleWindow window) {
 Figure cycles_figure(const Source& source) {
   Figure figure{"cycles", "Overlaid cycles"};
   figure.guide =
-      "Every cycle moved so that its slip begins at time zero and its kinetic friction lies at zero force. A tight "
-      "bundle means cycles alike; the spread at the top is the scatter of static friction. Above: whole cycles; below: "
-      "the slip close up, where natural frequency and damping show.";
+      "All cycles, shifted so that the slip starts at time zero and the kinetic friction is at zero force. A narrow "
+      "bundle means similar cycles; the spread at the top is the scatter of static friction. Top: whole cycles; "
+      "bottom: the slip enlarged, whose shape determines natural frequency and damping.";
   if (!shows_cycles(source.analysis)) return figure.without_chart("Steady sliding has no cycles.");
   constexpr std::size_t kMostCycles = 30;
   const Stack stack = stack_of(source.analysis, kMostCycles);

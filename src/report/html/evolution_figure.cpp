@@ -32,8 +32,8 @@ chart::Panel panel_over_slips(const std::string& name, const DisplayUnit& unit, 
 Figure evolution_figure(const Source& source) {
   Figure figure{
       "evolution", "Evolution over the slips",
-      "Peak force, force drop and period of each slip, in their order. A trend is wear, warming or a drift of "
-      "the sensor; a step is a change of the contact; a long period may be a slip that was missed."};
+      "Peak force, force drop and period of each slip in order. A trend indicates wear, heating or drift of the "
+      "sensor; a step indicates a change of the contact; a long period may be a slip that was not detected."};
   constexpr std::size_t kFewestSlips = 5;
   const std::vector<Cycle>& cycles = source.analysis.cycle_table;
   if (!shows_cycles(source.analysis) || cycles.size() < kFewestSlips)

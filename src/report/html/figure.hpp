@@ -13,7 +13,7 @@
 
 namespace slipfit::html {
 
-/// What a report of one recording is made of.
+/// The data of a report of one recording.
 struct Source {
   const Recording& recording;
   const Analysis& analysis;
@@ -24,7 +24,7 @@ struct Source {
 };
 Source source_of(const Recording& recording, const Analysis& analysis, const Background& background);
 
-/// False for steady sliding: cycles and fit are then those of noise, and no chart shows them.
+/// Returns false for steady sliding, whose cycles and fit are those of noise, so that no chart shows them.
 bool shows_cycles(const Analysis& analysis);
 
 /// There is a fitted force to draw on the trace.
@@ -55,7 +55,7 @@ Figure map_figure(const Source& source);
 Figure speed_figure(const Source& source);
 Figure pattern_figure(const Source& source);
 
-/// All of them, in the order of the page.
+/// Returns all figures in the order of the page.
 std::vector<Figure> figures_of(const Source& source);
 
 struct OverlaidRecording {
@@ -63,21 +63,20 @@ struct OverlaidRecording {
   const Analysis& analysis;
 };
 
-/// What is drawn in one colour, under one name: a recording of a sweep, a side of a comparison.
+/// Cycles that are drawn in one colour with one name: a recording of a sweep, or a side of a comparison.
 struct OverlaidSet {
   std::string name;
   std::vector<OverlaidRecording> recordings;
 };
 
-/// Any of the recordings has cycles to lay over others.
+/// Returns true if any of the recordings has cycles to overlay.
 bool has_cycles(const OverlaidSet& set);
 
-/// How to read what `overlay_of` draws.
+/// Explanation of the figure that `overlay_of` draws.
 inline constexpr std::string_view kOverlayGuide =
-    "Every cycle moved so that its slip begins at zero and its kinetic friction lies at zero force. Above: whole "
-    "cycles over the path of the drive, where sticks rise by the stiffness at any speed; below, where samples resolve "
-    "them: "
-    "slips close up over time, whose shape shows natural frequency and damping.";
+    "All cycles, shifted so that the slip starts at zero and the kinetic friction is at zero force. Top: whole cycles "
+    "against drive displacement, where the slope of the sticks is the stiffness at any speed; bottom, if the samples "
+    "resolve them: slips against time, whose shape determines natural frequency and damping.";
 
 /// Cycles of all sets, about as many of each. At least one of the sets has cycles.
 chart::Chart overlay_of(const std::string& title, const std::vector<OverlaidSet>& sets);

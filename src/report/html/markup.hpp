@@ -11,11 +11,11 @@ namespace slipfit::html {
 /// quotes.
 std::string text(std::string_view content);
 
-/// The same with the symbols of our own sentences as people write them: F_s, F_k, w_n, zeta, lambda; options on one
-/// line.
+/// Returns escaped text with typeset symbols (F_s, F_k, w_n, zeta, lambda) and options that are not broken across
+/// lines.
 std::string formula_text(std::string_view content);
 
-/// A template with {{name}} replaced by the value of that name, as it stands; inserted text is not searched again.
+/// A template with {{name}} replaced by the value of that name, unchanged; inserted text is not searched again.
 /// A name without a value stays.
 std::string filled(std::string_view page, const std::vector<std::pair<std::string, std::string>>& values);
 
@@ -26,10 +26,10 @@ std::string script_json(std::string_view json);
 std::string section(std::string_view attributes, std::string_view title, std::string_view content);
 
 /// A table in a box that scrolls where it is too wide. `headings`: of the columns, as text; one that begins with '#'
-/// stands over numbers, with '~' over what stays on one line. Rows are HTML.
+/// is above numbers, with '~' over what stays on one line. Rows are HTML.
 std::string table(std::string_view attributes, const std::vector<std::string>& headings, std::string_view rows);
 
-/// Of rows whose cells are HTML; the first names the row.
+/// Returns a table whose cells are HTML; the first cell names the row.
 std::string table(std::string_view attributes, const std::vector<std::string>& headings,
                   const std::vector<std::vector<std::string>>& rows);
 

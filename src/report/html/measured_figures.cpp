@@ -88,9 +88,9 @@ chart::Panel spectrum_panel(const Source& source, const std::vector<Point>& poin
 Figure spectrum_figure(const Source& source) {
   Figure figure{"spectrum", "Frequency"};
   figure.guide =
-      "Spectrum of the force. Cycles that repeat evenly show as a line with harmonics at its multiples; cycles of "
-      "uneven length smear the lines, and the frequency is then counted from slip to slip. Suspicious lines are mains "
-      "hum or its multiples and were not taken for stick-slip.";
+      "Spectrum of the force. Regular cycles appear as a line with harmonics at its multiples; irregular cycles "
+      "broaden the lines, and the frequency is then determined from the intervals between slips. Suspicious lines are "
+      "mains hum or its multiples and were not interpreted as stick-slip.";
   const Spectrum& spectrum = source.background.spectrum;
   const FrequencyReport& frequency = source.analysis.frequency;
   const double low_Hz =
@@ -100,7 +100,7 @@ Figure spectrum_figure(const Source& source) {
     const bool has_force = std::ranges::any_of(points, [](const Point& point) { return point.y > 0.0; });
     if (points.size() > 2 && has_force) figure.chart = chart::Chart{"Spectrum", {}, {spectrum_panel(source, points)}};
   }
-  if (!figure.chart) figure.absent = "The recording is too short, or too even, for a spectrum.";
+  if (!figure.chart) figure.absent = "The recording is too short or too constant for a spectrum.";
   figure.label = frequency.quoted.value
                      ? fmt::format("spectrum of the force; chosen frequency {} Hz, {} harmonics",
                                    with_error(frequency.quoted), frequency.spectral.harmonics_Hz.size())
@@ -163,7 +163,7 @@ chart::Panel pairs_panel(const Source& source, const std::vector<Point>& pairs) 
   return panel;
 }
 
-/// Whether the sensor's average or lag lowers peaks and troughs visibly. A lag tau shows a swing smaller by
+/// Returns true if averaging or lag of the sensor visibly reduces peaks and troughs. A lag tau reduces an amplitude by
 /// sqrt(1 + (w_n tau)^2): by 0.5 % at the limit.
 bool is_blunted(const Source& source) {
   constexpr double kVisibleLag = 0.1;  // of 1 / w_n
@@ -179,16 +179,17 @@ bool is_blunted(const Source& source) {
 
 std::string reason_for_none(const Source& source, const std::vector<Point>& pairs) {
   const Estimate& reflection = source.background.reflection;
-  if (source.analysis.motion != MotionClass::StickSlip) return "Without stick-slip cycles there are no such pairs.";
+  if (source.analysis.motion != MotionClass::StickSlip)
+    return "Without stick-slip cycles there are no pairs of peaks and troughs.";
   if (source.recording.conditions().force_view == ForceView::Contact) {
-    return "A sensor at the contact reads the friction force: its trough does not show how far the spring swings.";
+    return "A sensor at the contact measures the friction force: its trough does not show the extension of the spring.";
   }
   if (!reflection.value) {
     const std::string why = reflection.note.empty() ? "the fitted model has none" : reflection.note;
     return "The damping ratio is not known: " + why + ".";
   }
   if (is_blunted(source)) {
-    return "The sensor's average or lag blunts peaks and troughs: their ratio does not show the damping.";
+    return "Averaging or lag of the sensor reduces peaks and troughs: their ratio does not show the damping.";
   }
   return pairs.size() < 3 ? "There are too few fitted cycles." : "";
 }
@@ -196,11 +197,10 @@ std::string reason_for_none(const Source& source, const std::vector<Point>& pair
 }  // namespace
 
 Figure pairs_figure(const Source& source) {
-  Figure figure{
-      "pairs", "Damping from peaks and troughs",
-      "Each point is one slip: how far the force was above kinetic friction at its peak, and how far it swung below "
-      "at its trough. Without damping the trough mirrors the peak (dashed line). Damping makes the swing smaller by "
-      "exp(-pi zeta / sqrt(1 - zeta^2)): the points should lie along the solid line."};
+  Figure figure{"pairs", "Damping from peaks and troughs",
+                "Each point is one slip: the peak force above kinetic friction and the trough force below it. Without "
+                "damping the trough mirrors the peak (dashed line). Damping reduces the trough by the factor exp(-pi "
+                "zeta / sqrt(1 - zeta^2)): the points should follow the solid line."};
   const std::vector<Point> pairs = pairs_of(source);
   figure.absent = reason_for_none(source, pairs);
   if (!figure.absent.empty()) return figure;

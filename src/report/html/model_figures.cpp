@@ -70,21 +70,22 @@ void add_spot(chart::Panel& panel, const Spot& spot) {
 Figure map_figure(const Source& source) {
   Figure figure{"map", "Stability map"};
   figure.guide =
-      "Right of the line a body that starts from rest keeps sticking and slipping, left of it the motion dies out. "
-      "Raising the speed moves the point to the left (lambda falls as 1/V). The bars are the 95 % intervals; a damping "
-      "ratio below 0.001 is drawn at the lower edge.";
+      "To the right of the line a body that starts from rest continues to stick and slip, to the left the motion "
+      "decays. A higher speed moves the point to the left (lambda is proportional to 1/V). The bars are the 95 % "
+      "intervals; a damping ratio below 0.001 is drawn at the lower edge.";
   const Spot spot = spot_of(source.analysis);
   if (!spot.lambda.value || !spot.zeta.value || !(*spot.lambda.value > 0.0)) {
     const std::string& why = spot.lambda.value ? spot.zeta.note : spot.lambda.note;
-    return figure.without_chart("The place on the map is not known" + (why.empty() ? std::string() : ": " + why) + ".");
+    return figure.without_chart("The position on the map is unknown" + (why.empty() ? std::string() : ": " + why) +
+                                ".");
   }
   const double lambda = *spot.lambda.value;
   chart::Panel panel = regions(source.background.limit, std::min(0.01, 0.3 * lambda), std::max(100.0, 3.0 * lambda));
   add_spot(panel, spot);
-  figure.chart = chart::Chart{"Map of regimes", {}, {panel}};
+  figure.chart = chart::Chart{"Stability map", {}, {panel}};
   figure.label = fmt::format(
-      "map of damping ratio against lambda with the limit of stick-slip; this recording lies at "
-      "lambda {}, damping ratio {}",
+      "map of damping ratio against lambda with the limit of stick-slip; this recording is at lambda {}, damping ratio "
+      "{}",
       estimate_row(spot.lambda, "").value, estimate_row(spot.zeta, "").value);
   return figure;
 }
@@ -154,7 +155,8 @@ Panel fine_strip(double spacing, double length, const std::string& unit) {
   return panel;
 }
 
-/// As much of the measured profile as the pattern above it is long, at the same scale; begins at a ridge.
+/// Returns a panel with as much of the measured profile as the pattern above it is long, at the same scale; it starts
+/// at a ridge.
 Panel track_strip(const WornTrack& track, double length, const DisplayUnit& unit) {
   Panel panel = strip("measured profile of the worn track", unit.unit, length);
   panel.height_px = 110.0;
@@ -202,16 +204,16 @@ Figure pattern_figure(const Source& source) {
   figure.chart = chart::Chart{"Abrasion pattern, to scale", {}, {coarse}};
   const std::string source_words = is_predicted ? "predicted by the fitted model" : "measured (V/f)";
   figure.guide = fmt::format(
-      "The surface from above, one ridge a slip, along the path to scale: mean spacing {}, {}, with the scatter "
-      "of this recording's slips. The height of the ridges and their shape are not predicted; they are drawn alike.",
+      "The surface from above, one ridge for each slip, to scale along the path: mean spacing {}, {}, with the scatter "
+      "of the slips of this recording. Height and shape of the ridges are not predicted.",
       quantity_of(spacing, "m"), source_words);
   add_track(figure, source, per_SI * length_m, unit);
   const Estimate& fine = derived.micro_vibration_spacing_m;
   if (fine.value && *fine.value > 0.0 && length_m / *fine.value < static_cast<double>(kMostFine)) {
     figure.chart->panels.push_back(fine_strip(per_SI * *fine.value, per_SI * length_m, unit.unit));
     figure.guide += fmt::format(
-        " The fine pattern below, spacing {}, is an estimate from the free oscillation: the model has no "
-        "micro-vibration inside a slip.",
+        " The fine pattern below, spacing {}, is an estimate from the free oscillation: the model contains no "
+        "micro-vibration within a slip.",
         quantity_of(fine, "m"));
   }
   figure.label = fmt::format("abrasion pattern from above, {} ridges, mean spacing {}", distances_m.size(),

@@ -15,7 +15,7 @@ namespace {
 
 using chart::Colour, chart::Stroke;
 
-/// What a panel shows, and over what.
+/// The quantities of a panel.
 struct OverlayAxis {
   std::size_t window;  ///< of `windows_of`
   const char* label;
@@ -35,7 +35,7 @@ struct Reach {
   double after = 0.0;
 };
 
-/// Empty where the recording has no cycles, or too few samples to see them so close.
+/// Returns the window of a recording, or nothing if it has no cycles or too few samples in it.
 std::optional<CycleWindow> window_of(const OverlaidRecording& one, const OverlayAxis& axis) {
   if (!shows_cycles(one.analysis) || stack_of(one.analysis, 1).anchors.empty()) return std::nullopt;
   const auto windows = windows_of(one.analysis.cycles, one.recording.sample_interval_s());
@@ -138,7 +138,7 @@ class OverlayPanel {
   bool on_kinetic_level_ = true;
 };
 
-/// Those with stick-slip, from the slowest to the fastest.
+/// Returns the recordings with stick-slip, from the slowest to the fastest.
 std::vector<OverlaidSet> sets_of(const SweepSource& source) {
   std::vector<OverlaidSet> sets;
   for (const std::size_t i : by_speed(source)) {
@@ -170,7 +170,7 @@ chart::Chart overlay_of(const std::string& title, const std::vector<OverlaidSet>
 }
 
 Figure sweep_cycles_figure(const SweepSource& source) {
-  constexpr std::size_t kMostTogether = 16;  // colours and strokes that can be told apart
+  constexpr std::size_t kMostTogether = 16;  // colours and strokes that can be distinguished
   Figure figure{"sweep-cycles", "Overlaid cycles of the recordings", std::string(kOverlayGuide)};
   const std::vector<OverlaidSet> all = sets_of(source);
   if (all.size() < 2) return figure.without_chart("Fewer than two recordings have cycles to overlay.");

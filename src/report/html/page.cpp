@@ -50,7 +50,7 @@ std::string trace_part(const Figure& figure, const Source& source) {
                  {"chart", picture_of(*figure.chart, figure.id, figure.label)}});
 }
 
-/// Charts in their order; what the recording does not allow stands behind them, in a few lines.
+/// The charts in their order; those that the recording does not allow are listed after them, in a few lines.
 std::string figures_part(const Source& source) {
   std::string parts;
   std::string absent;

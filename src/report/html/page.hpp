@@ -9,7 +9,7 @@
 
 namespace slipfit::html {
 
-/// What differs between the pages: HTML, but for the title, which is text. Empty parts are left out.
+/// The parts in which pages differ, in HTML except for the title, which is text. Empty parts are left out.
 struct PageParts {
   std::string title;
   std::string place;  ///< path and labels, under the title
@@ -20,7 +20,7 @@ struct PageParts {
   std::string scripts;  ///< elements <script>
 };
 std::string page_from(const PageParts& parts);
-/// Under the title: where the file lies, and what the manifest says of it.
+/// Returns the line under the title: the path of the file, and its entry in the manifest.
 std::string place_of(const Recording& recording);
 std::string script_element(std::string_view script);
 
@@ -44,7 +44,7 @@ std::string block_content(const Block& block);
 /// <section> with the block; empty where that is.
 std::string block_part(const Block& block);
 std::string repeat_part(const Source& source, const ReportOrigin& origin);
-/// The recording for trace.js, as JSON that may stand in a <script>: force and residual in 65535 levels between their
+/// The recording for trace.js, as JSON that a <script> may contain: force and residual in 65535 levels between their
 /// ends (a residual that the fit does not reach is level 65535), two bytes a sample in base64; times as a first and a
 /// last, and 32-bit parts of the time between where the clock is uneven; slips and gaps by begin and end, outliers by
 /// their time, as such parts, too. Beyond a million samples the lowest and the

@@ -134,7 +134,7 @@ std::string parameter_table(const FitResult& fit) {
                     fmt::format("<span class=\"status {0}\">{0}</span>: {1}{2}", name_of(parameter.status),
                                 words_for_status(parameter.status), note)});
   }
-  return table(" class=\"parameters\"", {"parameter", "#value", "~unit", "~95 % interval", "what the data say"}, rows);
+  return table(" class=\"parameters\"", {"parameter", "#value", "~unit", "~95 % interval", "status"}, rows);
 }
 
 std::string block_content(const Block& block) {
@@ -160,13 +160,13 @@ std::string parameters_part(const Source& source) {
   };
   if (!analysis.fit || analysis.motion == MotionClass::SteadySliding) {
     const char* why = analysis.motion == MotionClass::SteadySliding
-                          ? "None: the model describes stick-slip, and this recording shows none."
+                          ? "None: the model describes stick-slip, which this recording does not show."
                           : "None: the model was not fitted, or there are too few cycles to fit.";
     return part(fmt::format("<p class=\"absent\">{}</p>\n", why));
   }
   const FitResult& fit = *analysis.fit;
   const bool is_doubtful = analysis.motion == MotionClass::Undetermined;
-  return part((is_doubtful ? "<p>Not to rely on: this may be no stick-slip.</p>\n" : "") + parameter_table(fit)) +
+  return part((is_doubtful ? "<p>Unreliable: the motion may not be stick-slip.</p>\n" : "") + parameter_table(fit)) +
          block_part(models_block(fit, source.recording.conditions().quantity));
 }
 
@@ -186,7 +186,7 @@ std::string repeat_part(const Source& source, const ReportOrigin& origin) {
   }
   facts += fact("normal force",
                 conditions.normal_force_N ? stated_text(*conditions.normal_force_N, "N") : std::string("not given"));
-  facts += fact("force that the sensor sees", name_of(conditions.force_view));
+  facts += fact("force that the sensor measures", name_of(conditions.force_view));
   facts += fact("sensor's zero",
                 conditions.zero_force_N ? stated_text(*conditions.zero_force_N, "N") : std::string("not given"));
   const std::string assumed = list(each(provenance.assumed, text));

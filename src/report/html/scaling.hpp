@@ -21,7 +21,7 @@ std::string label_with_unit(const std::string& name, const std::string& unit);
 
 /// "407.1 ± 2.2 µm" that a line does not end in; "-" where it is not known.
 std::string quantity_of(const Estimate& estimate, const std::string& SI_unit);
-/// With blanks at which no line ends.
+/// Returns a quantity with non-breaking spaces.
 std::string unbroken(const std::string& quantity);
 
 /// A line of this width around an area of a page.
@@ -37,11 +37,12 @@ class Span {
   [[nodiscard]] bool empty() const { return !(low_ <= high_); }
   [[nodiscard]] double low() const { return low_; }
   [[nodiscard]] double high() const { return high_; }
-  /// From the lowest to the highest; 0 where they differ in digits that no sensor and no clock has.
+  /// Returns the difference of the largest and the smallest value; 0 if they differ only in digits that no sensor or
+  /// clock has.
   [[nodiscard]] double range() const;
-  /// With a twentieth of the range on both sides; never of no length.
+  /// Returns a linear axis with a margin of a twentieth of the range on both sides; its length is never zero.
   [[nodiscard]] chart::Axis linear_axis(const std::string& label) const;
-  /// From the smallest to the largest with a little room; the numbers are positive.
+  /// Returns a logarithmic axis from the smallest to the largest value with a small margin; the values are positive.
   [[nodiscard]] chart::Axis logarithmic_axis(const std::string& label) const;
 
  private:

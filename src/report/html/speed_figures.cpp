@@ -50,7 +50,7 @@ Series merged_by_speed(const Series& series) {
   return merged;
 }
 
-/// From the slowest to the fastest; recordings without the quantity are left out.
+/// Points sorted by speed; recordings without the quantity are left out.
 template <class Pick>
 Series series_of(const SweepSource& source, Pick pick) {
   Series series;
@@ -177,8 +177,8 @@ class SpeedPanel {
   Span bounds_;
 };
 
-/// What a model predicts over speed, from the first to the last speed with the quantity; between them it may be
-/// unknown.
+/// Returns the prediction of a model against speed, from the first to the last speed with the quantity; it may be
+/// unknown between them.
 Series predicted_series(const Prediction& prediction, Estimate PredictedMotion::*quantity) {
   Series series;
   const auto is_known = [quantity](const PredictedMotion& row) { return (row.*quantity).value.has_value(); };
@@ -206,7 +206,7 @@ Panel panel_over_speed(const Source& source, const std::string& name, const Disp
   return finished;
 }
 
-/// What the fit of the sweep says over speed: between the recordings where there is a prediction.
+/// Returns the spacing by the fit of the sweep against speed, between the recordings with a prediction.
 Series fitted_spacing(const SweepSource& source) {
   if (source.prediction) return predicted_series(*source.prediction, &PredictedMotion::periodic_displacement_m);
   const std::vector<SweepPoint>& points = source.sweep.fit->points;
@@ -222,9 +222,9 @@ Estimate critical_speed_of(const SweepSource& source) {
 Figure speed_figure(const Source& source) {
   Figure figure{"speed", "Spacing and frequency at other speeds"};
   figure.guide =
-      "What the fitted model says where nothing was measured, as long as friction does not change with speed. The "
-      "point is the measurement; at its own speed the curve must pass through it and proves little. Where the band "
-      "ends before the curve, the recording does not determine whether stick-slip persists.";
+      "Prediction of the fitted model at other speeds, if friction does not depend on speed. The point is the "
+      "measurement; the curve passes through it by construction. If the band ends before the curve, the recording does "
+      "not determine whether stick-slip persists.";
   const Analysis& analysis = source.analysis;
   if (!source.background.prediction) {
     const std::string& why = analysis.derived.lambda.note;
@@ -254,10 +254,9 @@ Figure speed_figure(const Source& source) {
 Figure sweep_spacing_figure(const SweepSource& source) {
   Figure figure{"sweep-spacing", "Pattern spacing over speed"};
   figure.guide =
-      "Dots: measured, V/f. Rings: what a fit to all other recordings predicts for this one, with its 95 % interval; "
-      "this is the test of the model, because the recording had no say in it. Line: the fit to all, with its 95 % "
-      "band; where the band ends before "
-      "the line, the recordings do not determine whether stick-slip persists.";
+      "Dots: measured V/f. Rings: prediction of a fit to all other recordings with its 95 % interval; this tests the "
+      "model, because the recording itself was not used. Line: the fit to all recordings with its 95 % band; if the "
+      "band ends before the line, the recordings do not determine whether stick-slip persists.";
   if (!source.sweep.fit) return figure.without_chart("There is no joint fit: " + source.sweep.fit_reason + ".");
   const std::vector<SweepPoint>& points = source.sweep.fit->points;
   const Series measured =
@@ -275,7 +274,7 @@ Figure sweep_spacing_figure(const SweepSource& source) {
       source, [&source](std::size_t i) { return spacing_on_surface(source.entries[i].recording.conditions()); });
   if (!worn.estimates.empty()) {
     panel.add_markers("on the worn surface", Colour::Green, Shape::Triangle, worn);
-    figure.guide += " Triangles: the pattern on the worn surface, with its 95 % interval where one is known.";
+    figure.guide += " Triangles: the pattern on the worn surface, with its 95 % interval if known.";
   }
   figure.chart = chart::Chart{"Pattern spacing over speed",
                               {},
@@ -286,10 +285,9 @@ Figure sweep_spacing_figure(const SweepSource& source) {
 }
 
 Figure sweep_friction_figure(const SweepSource& source) {
-  Figure figure{
-      "sweep-friction", "Friction over speed",
-      "Kinetic friction by the fitted friction law at the speeds of the sweep, with its 95 % band (alpha's uncertainty "
-      "is in it). Dots: the mean force of recordings that slide steadily."};
+  Figure figure{"sweep-friction", "Friction over speed",
+                "Kinetic friction by the fitted friction law at the speeds of the sweep, with its 95 % band, which "
+                "includes the uncertainty of alpha. Dots: mean force of recordings with steady sliding."};
   const std::vector<SweepPoint> points = source.sweep.fit ? source.sweep.fit->points : std::vector<SweepPoint>{};
   const Series law = points.empty() ? Series{} : merged_by_speed(series_of(source, [&points](std::size_t i) {
     return points[i].kinetic_friction_N;
@@ -331,8 +329,9 @@ std::vector<Figure> sweep_traces_figures(const SweepSource& source) {
   for (std::size_t first = 0; first < source.entries.size(); first += kTracesOfPicture) {
     const auto entries = source.entries.subspan(first, std::min(kTracesOfPicture, source.entries.size() - first));
     Figure figure =
-        first == 0 ? Figure{"sweep-traces", "The recordings", "Each recording over its own time, with its own scale."}
-                   : Figure{fmt::format("sweep-traces-{}", figures.size() + 1), "The recordings, continued"};
+        first == 0
+            ? Figure{"sweep-traces", "The recordings", "Each recording against its own time, with its own scale."}
+            : Figure{fmt::format("sweep-traces-{}", figures.size() + 1), "The recordings, continued"};
     chart::Chart chart{"Recordings of the sweep", {}, {}};
     for (const SweepEntry& entry : entries) chart.panels.push_back(trace_panel(entry));
     figure.label = fmt::format("force over time of {} recordings", entries.size());

@@ -8,7 +8,7 @@
 
 namespace slipfit::html {
 
-/// What each cycle is laid on: the onset and F_k by the fit, else the turning points.
+/// The reference point of a cycle: the onset and F_k by the fit, otherwise the turning points.
 struct Anchor {
   double time_s = 0.0;
   double force = 0.0;
@@ -22,7 +22,7 @@ struct Stack {
 };
 Stack stack_of(const Analysis& analysis, std::size_t most_cycles);
 
-/// Seconds around the slip.
+/// A window around the slip, in s.
 struct CycleWindow {
   double before_s = 0.0;
   double after_s = 0.0;
@@ -33,7 +33,7 @@ std::vector<CycleWindow> windows_of(const CycleStatistics& cycles, double sample
 /// One cycle of `force`, laid on its anchor: seconds, and the force in the source's unit.
 std::vector<chart::Point> laid(const Source& source, std::span<const double> force, const Anchor& anchor,
                                CycleWindow window);
-/// All cycles of the stack as one line with gaps.
+/// Returns all cycles of the stack as one line with gaps.
 chart::Line laid_cycles(const Source& source, const Stack& stack, CycleWindow window);
 
 }  // namespace slipfit::html

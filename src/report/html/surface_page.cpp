@@ -47,7 +47,7 @@ chart::Panel profile_panel(const Profile& profile, const Surface& surface, const
     marks.points.push_back({place * units.along.per_SI, height_at(profile, place) * units.height.per_SI + 0.04 * room});
   }
   if (!marks.points.empty()) panel.markers.push_back(std::move(marks));
-  panel.x = {"place along the track (" + units.along.unit + ")", begin_m * units.along.per_SI,
+  panel.x = {"position along the track (" + units.along.unit + ")", begin_m * units.along.per_SI,
              end_m * units.along.per_SI};
   panel.y = {units.height.unit.empty() ? "height (as in the file)" : "height (" + units.height.unit + ")",
              span.low() - 0.05 * room, span.high() + 0.15 * room};
@@ -63,7 +63,7 @@ Figure profile_figure(const Profile& profile, const Surface& surface) {
                            profile.height_in_metres ? display_unit("m", swing) : DisplayUnit{1.0, ""}};
   Figure figure{"profile", "The profile"};
   figure.guide =
-      "The measured profile and the ridges that were counted: above the whole track, below its first twelve ridges.";
+      "The measured profile and the located ridges: the whole track (top) and its first twelve ridges (bottom).";
   figure.label = "profile of the worn surface with its ridges marked";
   chart::Chart chart;
   chart.panels.push_back(profile_panel(profile, surface, units, 0.0, length_m));
@@ -77,7 +77,7 @@ Figure profile_figure(const Profile& profile, const Surface& surface) {
 
 std::string surface_headline(const Surface& surface) {
   if (surface.spacing_m.value) return text("Ridges every " + estimate_text(surface.spacing_m, "m"));
-  return surface.status == SurfaceStatus::None ? "No pattern" : "Not known whether there is a pattern";
+  return surface.status == SurfaceStatus::None ? "No pattern" : "Pattern not determined";
 }
 
 }  // namespace

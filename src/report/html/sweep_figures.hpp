@@ -10,7 +10,7 @@
 
 namespace slipfit::html {
 
-/// What the page of a sweep is made of.
+/// The data of the page of a sweep.
 struct SweepSource {
   std::span<const SweepEntry> entries;
   const SweepAnalysis& sweep;
@@ -20,7 +20,7 @@ struct SweepSource {
 /// The unit in which the manifest gives the speeds; empty: SI.
 const std::string& given_speed_unit(const SweepSource& source);
 
-/// That of the manifest, else the one that suits the fastest recording: the slower ones are decimals of it.
+/// Returns the unit of the speeds: that of the manifest, otherwise one that suits the fastest recording.
 DisplayUnit speed_unit_of(const SweepSource& source);
 
 /// Places of the recordings, from the slowest to the fastest.
@@ -33,7 +33,7 @@ Figure sweep_spacing_figure(const SweepSource& source);
 Figure sweep_friction_figure(const SweepSource& source);
 /// Cycles of each over those of the others.
 Figure sweep_cycles_figure(const SweepSource& source);
-/// Each recording over time, so many in a picture as a printed page holds.
+/// Returns charts of each recording against time, as many in a picture as fit on a printed page.
 std::vector<Figure> sweep_traces_figures(const SweepSource& source);
 
 }  // namespace slipfit::html

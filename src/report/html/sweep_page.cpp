@@ -26,7 +26,7 @@ std::string sweep_sentence(const SweepSource& source) {
   const std::string end =
       critical.value
           ? ": stick-slip ends at " + estimate_text(critical, speed_unit(given_speed_unit(source), critical.value))
-          : std::string(": where stick-slip ends is not known");
+          : std::string(": the end of stick-slip is unknown");
   const auto left_out = std::ranges::count(source.sweep.roles, SweepRole::LeftOut);
   const auto fitted = static_cast<std::ptrdiff_t>(source.entries.size()) - left_out;
   return text(fmt::format("{} recordings, {} fitted together{}.", source.entries.size(), fitted, end));
@@ -54,14 +54,14 @@ SweepUnits units_of(const SweepSource& source) {
   return {speed_unit_of(source), display_unit("m", widest_m)};
 }
 
-/// Of the pattern on the worn surface, where the manifest gives it for any of them.
+/// Returns true if the manifest states the spacing on the worn surface for any recording.
 bool has_surface_spacing(const SweepSource& source) {
   return std::ranges::any_of(source.entries, [](const SweepEntry& entry) {
     return spacing_on_surface(entry.recording.conditions()).value.has_value();
   });
 }
 
-/// By how much k and F_s - F_k change where the recording is left out.
+/// Returns the changes of k and F_s - F_k if the recording is left out.
 std::string influence_cells(const SweepSource& source, const SweepPoint& point) {
   const std::optional<ModelEstimate> whole = source.sweep.fit ? source.sweep.fit->result.estimate : std::nullopt;
   if (!whole) return {};

@@ -21,7 +21,7 @@ constexpr std::size_t kMostSamples = 1'000'000;  // 5.4 MB in the page
 constexpr double kLevels = 65534.0;
 constexpr std::uint16_t kMissing = 65535;
 constexpr double kTicks = 4294967295.0;
-constexpr double kEvenClock = 0.02;  // largest deviation, in steps: below what the eye can tell
+constexpr double kEvenClock = 0.02;  // largest deviation, in steps: too small for the eye
 
 /// RFC 4648.
 std::string base64(std::vector<unsigned char> bytes) {

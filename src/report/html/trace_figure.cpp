@@ -74,7 +74,7 @@ void mark_sliding(Panel& panel, const Source& source) {
       rectangle("sliding", Colour::Grey, {sliding.begin_s, panel.y.low}, {sliding.end_s, panel.y.high}));
 }
 
-/// Where slips begin and end by the fit, else the turning points.
+/// Marks the start and end of slips, by the fit or by the turning points.
 void add_cycle_marks(Panel& panel, const Source& source) {
   const double scale = source.force_unit.per_SI;
   chart::Markers begin{"slip begins", Colour::Blue, Shape::Ring, {}};
@@ -92,7 +92,7 @@ void add_cycle_marks(Panel& panel, const Source& source) {
 
 Panel close_up(const Piece& piece, const Source& source, const std::string& label) {
   Panel panel = force_panel(piece, label, 1.6);
-  panel.lines.front().name = "measured, close up";
+  panel.lines.front().name = "measured, enlarged";
   if (piece.time_s.size() <= kFewSamples) {
     panel.markers.push_back({"", Colour::Grey, Shape::Speck, panel.lines.front().points});
   }
@@ -118,11 +118,9 @@ Figure trace_figure(const Source& source) {
   const bool has_fit = has_fitted_curve(source.analysis);
 
   Figure figure{"trace", has_fit ? "The recording and the fit" : "The recording"};
-  figure.guide = !has_fit ? "Measured force; no fit is drawn on it."
-                          : "Measured force, the fitted force on it, and what the fit leaves over (residual: measured "
-                            "less fitted). A good "
-                            "residual is noise without a shape; a pattern that repeats in every slip is something "
-                            "that the model lacks.";
+  figure.guide = !has_fit ? "Measured force, without a fit."
+                          : "Measured force, fitted force, and residual (measured minus fitted). The residual should "
+                            "be noise; a pattern that repeats in every slip shows that the model lacks something.";
   chart::Chart chart{"Recording and fit", {}, {}};
   chart.panels.push_back(force_panel(cut(source, {0, recording.size()}), label, 1.0));
   mark_sliding(chart.panels.back(), source);
