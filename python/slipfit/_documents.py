@@ -128,6 +128,10 @@ class Comparison(Document):
         super().__init__(content, text)
         self._page = page
 
+    def _summary(self) -> str:
+        found = next((line for line in self._text.splitlines() if line.startswith(("A and B ", "No "))), None)
+        return super()._summary() if found is None else found.partition(":")[0].rstrip(".")
+
     def to_frame(self) -> "pd.DataFrame":
         """One row a quantity: difference and ratio with interval, p value, adjusted for all quantities (Holm)."""
         import pandas
