@@ -368,6 +368,11 @@ def test_a_batch_beside_other_threads(long_manifest, tmp_path, demo):
         thread.join()
 
 
+def test_a_batch_takes_the_processors_that_it_may_use():
+    script = "import os; os.sched_setaffinity(0, {min(os.sched_getaffinity(0))}); from slipfit import _slipfit; print(_slipfit.default_jobs())"
+    assert subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True).stdout == "1\n"
+
+
 def test_batches_refuse_and_report(long_manifest, tmp_path):
     sf.batch(long_manifest, out=tmp_path / "out", jobs=2)
     assert error_of(lambda: sf.batch(long_manifest, out=tmp_path / "out")).code == "results_present"
