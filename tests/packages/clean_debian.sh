@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # clean_debian.sh RELEASE [--tests] [MIRROR]: in a fresh Debian made by debootstrap (bookworm: 12, trixie: 13) runs scripts/demo.sh of
-# this checkout, with --tests scripts/test.sh too, and makes the Debian packages; then installs, uses and removes these in another
-# fresh one. Says how long each took. Needs root, debootstrap and a mirror; about twenty minutes on two cores, with --tests twice that.
+# this checkout, with --tests scripts/test.sh and tests/packages/pip_install.sh too, and makes the Debian packages; then installs, uses and
+# removes these in another fresh one. Says how long each took. Needs root, debootstrap and a mirror; about twenty minutes on two cores,
+# with --tests twice that.
 set -euo pipefail
 usage() {
   echo "clean_debian.sh RELEASE [--tests] [MIRROR]; RELEASE: bookworm or trixie" >&2
@@ -40,7 +41,10 @@ timed debootstrap fresh "$builder"
 mkdir "$builder/slipfit"
 (cd "$project" && git ls-files -z --cached --others --exclude-standard | xargs -0 tar -c --ignore-failed-read --) | tar -x -C "$builder/slipfit"
 timed scripts/demo.sh inside "$builder" /slipfit/scripts/demo.sh
-[ -z "$with_tests" ] || timed scripts/test.sh inside "$builder" /slipfit/scripts/test.sh
+if [ -n "$with_tests" ]; then
+  timed scripts/test.sh inside "$builder" /slipfit/scripts/test.sh
+  timed pip_install.sh inside "$builder" /slipfit/tests/packages/pip_install.sh
+fi
 build_packages() {
   inside "$builder" /slipfit/scripts/install_dependencies.sh build python
   inside "$builder" sh -c 'apt-get install -y -qq --no-install-recommends dpkg-dev file >/dev/null && cd /slipfit &&
