@@ -11,7 +11,7 @@ namespace slipfit::reading {
 
 /// A line of 16 MB or more, by its number. Thrown by TextLines and ParsedLines.
 struct LineTooLong : std::runtime_error {
-  explicit LineTooLong(unsigned number) : std::runtime_error("a line is longer than 16 MB"), number(number) {}
+  explicit LineTooLong(unsigned line) : std::runtime_error("a line is longer than 16 MB"), number(line) {}
   unsigned number;
 };
 
