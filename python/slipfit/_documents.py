@@ -33,12 +33,16 @@ def row_of(lines: Tuple[str, str], text: bool) -> Dict[str, Union[str, int, floa
 
 
 def _cell(text: str, is_name: bool) -> Union[str, int, float, None]:
-    for kind in () if is_name else (int, float):
-        try:
-            return cast(Union[int, float], kind(text))
-        except ValueError:
-            pass
-    return text or None
+    if is_name or not text:
+        return text or None
+    try:
+        return int(text)
+    except ValueError:
+        pass
+    try:
+        return float(text)
+    except ValueError:
+        return text
 
 
 def write_page(path: Path, page: str) -> None:

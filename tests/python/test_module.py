@@ -446,7 +446,7 @@ def test_files_from_elsewhere(demo_fit, tmp_path):
 def test_a_pickle_keeps_an_assumed_unit_of_time(tmp_path):
     recording = sf.simulate(**MODEL, kinetic_friction=4, speed=0.02, duration=2, sample_rate=1000)
     rows = zip(1e3 * recording.time, recording.force)
-    (tmp_path / "ms.csv").write_text("time,force_N\n" + "".join(f"{t!r},{f!r}\n" for t, f in rows))  # seconds are assumed
+    (tmp_path / "ms.csv").write_text("time,force_N\n" + "".join(f"{float(t)!r},{float(f)!r}\n" for t, f in rows))  # seconds are assumed
     read = sf.read_recording(tmp_path / "ms.csv", speed=0.02)
     again = pickle.loads(pickle.dumps(read))
     assert sf.fit(again).to_json() == sf.fit(read).to_json()

@@ -2,6 +2,7 @@
 
 import os
 import re
+import shutil
 import subprocess
 import sys
 import tarfile
@@ -39,6 +40,8 @@ def test_a_script_is_no_program(tmp_path, monkeypatch):
 @pytest.fixture(scope="module")
 def sdist(tmp_path_factory):
     """Made of a copy of what the repository tracks, as a user would of a clone."""
+    if shutil.which("git") is None:
+        pytest.skip("git is not installed")
     listed = subprocess.run(["git", "-C", str(PROJECT), "ls-files", "-z"], capture_output=True, text=True, check=False)
     if listed.returncode != 0:
         pytest.skip("the sources are no git repository")
