@@ -17,7 +17,10 @@ mirror=${1:-http://deb.debian.org/debian}
 project=$(realpath "$(dirname "${BASH_SOURCE[0]}")/../..")
 work=$(mktemp -d)
 leave() {
-  umount -q "$work/builder/proc" "$work/clean/proc" 2>/dev/null || true
+  local root
+  for root in "$work/builder" "$work/clean"; do
+    umount -q "$root/dev/pts" "$root/proc" 2>/dev/null || true
+  done
   rm -rf --one-file-system "$work"
 }
 trap leave EXIT
@@ -26,6 +29,7 @@ fresh() {  # ROOT
   debootstrap --variant=minbase "$release" "$1" "$mirror" >"$work/debootstrap.log" || { tail "$work/debootstrap.log" >&2; exit 1; }
   [ ! -d /etc/apt/apt.conf.d ] || cp /etc/apt/apt.conf.d/*proxy* "$1/etc/apt/apt.conf.d/" 2>/dev/null || true
   mount -t proc proc "$1/proc" 2>/dev/null || true
+  mount -t devpts -o ptmxmode=0666 devpts "$1/dev/pts" 2>/dev/null || true  # tests open a terminal
 }
 inside() {  # ROOT COMMAND...
   chroot "$1" /usr/bin/env -i HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin DEBIAN_FRONTEND=noninteractive "${@:2}"
