@@ -1,4 +1,4 @@
-"""Fits the recordings of a manifest on a Dask cluster, and writes one table: the columns of summary.csv.
+"""Fits the recordings of a manifest on a Dask cluster, and writes one table: the summary.csv of ``slipfit batch``, byte for byte.
 
     python3 dask_batch.py runs.csv table.csv tcp://scheduler:8786   # without an address: on this machine
 
@@ -25,19 +25,19 @@ def row_of(entry, folder):
         row = sf.fit(sf.read_recording(file, **said), name=entry["id"]).row(text=True)
     except sf.Error as error:
         row = {"status": "failed", "error": error.code}
-    return {**row, "id": entry["id"], "group": entry.get("group") or "", "file": file}
+    return {"row": entry["row"], **row, "id": entry["id"], "group": entry.get("group") or "", "file": file}
 
 
 def rows_of(manifest, client):
     """In the manifest's order. Each recording is a task of its own, so that long ones do not hold others up."""
     with open(manifest, newline="", encoding="utf-8") as stream:
-        entries = list(csv.DictReader(stream))
+        entries = [{"row": row, **entry} for row, entry in enumerate(csv.DictReader(stream), 1)]
     bag = dask.bag.from_sequence(entries, npartitions=len(entries))
     return client.compute(bag.map(row_of, folder=os.path.dirname(manifest))).result()
 
 
 def write_table(rows, path):
-    names = next((list(row) for row in rows if row["status"] != "failed"), ["id", "group", "file", "status", "error"])
+    names = next((list(row) for row in rows if row["status"] != "failed"), ["row", "id", "group", "file", "status", "error"])
     with open(path, "w", newline="", encoding="utf-8") as stream:
         table = csv.DictWriter(stream, names, lineterminator="\n", restval="")
         table.writeheader()

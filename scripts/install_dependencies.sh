@@ -5,24 +5,30 @@
 # minutes while another program (a desktop's updates, the first start of a cloud machine) holds the lock of the packages.
 set -euo pipefail
 
-packages=(g++ cmake ninja-build libboost-dev libceres-dev libeigen3-dev libfftw3-dev libfccp-dev libcli11-dev
+build=(g++ cmake ninja-build libboost-dev libceres-dev libeigen3-dev libfftw3-dev libfccp-dev libcli11-dev
   nlohmann-json3-dev libfmt-dev libxxhash-dev zlib1g-dev libminizip-dev libpugixml-dev
   libhdf5-dev libleptonica-dev python3)
-python=(pybind11-dev python3-dev python3-numpy python3-setuptools python3-wheel python3-pip
-  python3-venv)
+python=(pybind11-dev python3-dev python3-numpy python3-pip python3-venv)
+if [ "$(. /etc/os-release 2>/dev/null && echo "${VERSION_ID:-}")" = 12 ]; then  # what makes the wheel
+  python+=(python3-skbuild python3-setuptools python3-wheel)
+else
+  python+=(python3-scikit-build-core)
+fi
 notebooks=(python3-nbconvert jupyter-nbconvert python3-ipykernel python3-pandas python3-matplotlib python3-scipy)
+packages=()
 for group in "${@:-test}"; do
+  [ "$group" = browser ] || packages+=("${build[@]}")
   case "$group" in
     python) packages+=("${python[@]}") ;;
     test) packages+=(catch2 libfast-float-dev python3 python3-jsonschema python3-openpyxl python3-scipy python3-h5py
-      slurm-wlm munge locales dpkg-dev file "${python[@]}" "${notebooks[@]}" python3-pytest mypy) ;;
+      slurm-wlm munge locales dpkg-dev file "${python[@]}" "${notebooks[@]}" python3-pytest mypy python3-dask python3-distributed python3-xarray) ;;
     docs) packages+=("${python[@]}" "${notebooks[@]}" mkdocs mkdocs-material doxygen) ;;
     web)
       packages+=(emscripten libfast-float-dev curl ca-certificates xz-utils bzip2 make)
       command -v node >/dev/null 2>&1 || packages+=(nodejs)
       ;;
     browser)
-      packages=(chromium)
+      packages+=(chromium)
       command -v npm >/dev/null 2>&1 || packages+=(nodejs npm)
       ;;
   esac

@@ -10,7 +10,6 @@
 
 #include "batch_folder.hpp"
 #include "commands.hpp"
-#include "core/parallel.hpp"
 #include "failure.hpp"
 #include "output.hpp"
 #include "progress_line.hpp"
@@ -78,7 +77,7 @@ slipfit::Shard shard_from(const std::string& text) {
 }
 
 std::size_t jobs_from(const std::optional<std::size_t>& jobs) {
-  if (!jobs) return slipfit::usable_processors();
+  if (!jobs) return slipfit::default_jobs();
   if (*jobs >= 1 && *jobs <= kMostJobs) return *jobs;
   throw Failure(ExitCode::WrongUsage, fmt::format("--jobs: {} is out of range, expected 1 to {}", *jobs, kMostJobs));
 }

@@ -27,10 +27,10 @@ def _seconds_since_first(dates: Any) -> "Array":
 
 def _seconds(durations: Any) -> "Array":
     """NaN where a duration is missing."""
-    unit, count = np.datetime_data(durations.dtype)
+    unit = np.datetime_data(durations.dtype)[0]
     if unit in ("Y", "M", "generic"):
         raise TypeError(f"time: durations of the type {durations.dtype} have no fixed length in seconds")
-    ticks_per_s = np.timedelta64(1, "s") / np.timedelta64(count, unit)
+    ticks_per_s = np.timedelta64(1, "s") / np.ones(1, dtype=durations.dtype)[0]  # one tick
     ticks = durations.astype("int64").astype(np.float64)
     # Dividing by a whole number of ticks rounds once: 0.1 s in nanoseconds is 0.1.
     seconds = ticks / ticks_per_s if ticks_per_s >= 1 else ticks * (1.0 / ticks_per_s)

@@ -284,8 +284,7 @@ def batch(
     part, parts = shard or (1, 1)
     if not 1 <= part <= parts:
         raise Error("out_of_range", f"shard: bad {shard!r}, expected (I, N) with I from 1 to N")
-    cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-    count = cores if jobs is None else jobs
+    count = _slipfit.default_jobs() if jobs is None else jobs
     if not 1 <= count <= 1024:
         raise Error("out_of_range", f"jobs: {jobs} is out of range, expected 1 to 1024")
     options = {

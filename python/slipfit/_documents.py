@@ -33,12 +33,16 @@ def row_of(lines: Tuple[str, str], text: bool) -> Dict[str, Union[str, int, floa
 
 
 def _cell(text: str, is_name: bool) -> Union[str, int, float, None]:
-    for kind in () if is_name else (int, float):
-        try:
-            return cast(Union[int, float], kind(text))
-        except ValueError:
-            pass
-    return text or None
+    if is_name or not text:
+        return text or None
+    try:
+        return int(text)
+    except ValueError:
+        pass
+    try:
+        return float(text)
+    except ValueError:
+        return text
 
 
 def write_page(path: Path, page: str) -> None:
@@ -127,6 +131,10 @@ class Comparison(Document):
     def __init__(self, content: str, text: str, page: Optional[Any] = None) -> None:
         super().__init__(content, text)
         self._page = page
+
+    def _summary(self) -> str:
+        found = next((line for line in self._text.splitlines() if line.startswith(("A and B ", "No "))), None)
+        return super()._summary() if found is None else found.partition(":")[0].rstrip(".")
 
     def to_frame(self) -> "pd.DataFrame":
         """One row a quantity: difference and ratio with interval, p value, adjusted for all quantities (Holm)."""

@@ -105,6 +105,7 @@ py::tuple row_of(const std::string& document, const std::string& name) {
 void add_batch(py::module_& module) {
   module.def("merge", merge, py::arg("shards"), py::arg("folder"));
   module.def("summary_row", row_of, py::arg("document"), py::arg("name"));
+  module.def("default_jobs", default_jobs);
   module.def("batch", run, py::arg("options"), py::arg("progress"), py::arg("tell"));
 }
 

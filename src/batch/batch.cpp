@@ -13,6 +13,7 @@
 #include "batch/run_file.hpp"
 #include "batch/tables.hpp"
 #include "batch/work_list.hpp"
+#include "core/platform.hpp"
 #include "slipfit/core/printable.hpp"
 #include "slipfit/io/manifest.hpp"
 #include "slipfit/report/fit_document.hpp"
@@ -104,6 +105,10 @@ BatchOutcome run_or_throw(const BatchOptions& options, const BatchHooks& hooks) 
 }
 
 }  // namespace
+
+std::size_t default_jobs() {
+  return platform::processors();
+}
 
 Result<BatchOutcome> run_batch(const BatchOptions& options, const BatchHooks& hooks) {
   return result_of([&] { return run_or_throw(options, hooks); });

@@ -126,29 +126,56 @@ inline std::filesystem::path program_file() {
 #endif
 }
 
-/// Processors that a control group allows, by its file cpu.max ("QUOTA PERIOD" or "max PERIOD"); empty without a limit.
-inline std::optional<std::size_t> processors_in(const std::filesystem::path& cpu_max) {
-  std::ifstream file(cpu_max);
+/// Processors that a control group allows; empty without a limit. Version 2 has the file cpu.max ("QUOTA PERIOD" or
+/// "max PERIOD"), version 1 two files, whose quota is -1 without a limit.
+inline std::optional<std::size_t> processors_in(const std::filesystem::path& group) {
   double quota_us = 0.0;
   double period_us = 0.0;
-  if (!(file >> quota_us >> period_us) || !(quota_us > 0.0) || !(period_us > 0.0)) return std::nullopt;
+  std::ifstream both(group / "cpu.max");
+  std::ifstream quota(group / "cpu.cfs_quota_us");
+  std::ifstream period(group / "cpu.cfs_period_us");
+  const bool is_read = (both >> quota_us >> period_us) || (quota >> quota_us && period >> period_us);
+  if (!is_read || !(quota_us > 0.0) || !(period_us > 0.0)) return std::nullopt;
   return static_cast<std::size_t>(std::max(1.0, std::ceil(quota_us / period_us)));
 }
 
-/// The least that a process's control group and those above it allow (containers, Slurm). `groups`: /proc/self/cgroup;
-/// `root`: where control groups of version 2 are mounted.
+/// A line of /proc/self/cgroup, "ID:CONTROLLERS:/GROUP".
+struct ControlGroup {
+  std::filesystem::path mount;  ///< below the folder of all control groups; empty in version 2
+  std::filesystem::path group;  ///< below `mount`
+};
+
+/// Empty where the line is of a hierarchy of version 1 that does not limit processors. A container may see the paths
+/// of its host, which it does not have; the walk to the root of the hierarchy then ends at the container's own limit.
+inline std::optional<ControlGroup> control_group_in(const std::string& line) {
+  const std::size_t first = line.find(':');
+  const std::size_t second = first == std::string::npos ? first : line.find(':', first + 1);
+  if (second == std::string::npos || !line.substr(second).starts_with(":/")) return std::nullopt;
+  const std::string controllers = line.substr(first + 1, second - first - 1);
+  const bool is_version_2 = controllers.empty();
+  if (!is_version_2 && (',' + controllers + ',').find(",cpu,") == std::string::npos) return std::nullopt;
+  return ControlGroup{controllers, line.substr(second + 2)};
+}
+
+/// The least that a process's control groups and those above them allow (containers, Slurm). `groups`:
+/// /proc/self/cgroup; `root`: the folder of all control groups.
 inline std::optional<std::size_t> processors_of_groups(const std::filesystem::path& groups,
                                                        const std::filesystem::path& root) {
   std::ifstream file(groups);
-  std::string line;
-  while (std::getline(file, line) && !line.starts_with("0::/")) continue;
-  if (!line.starts_with("0::/")) return std::nullopt;
   std::optional<std::size_t> least;
-  for (std::filesystem::path group = line.substr(4);; group = group.parent_path()) {
-    const std::optional<std::size_t> here = processors_in(root / group / "cpu.max");
-    if (here) least = std::min(*here, least.value_or(*here));
-    if (group.empty()) return least;
+  for (std::string line; std::getline(file, line);) {
+    const std::optional<ControlGroup> found = control_group_in(line);
+    if (!found) continue;
+    std::error_code error;
+    const bool is_there = found->mount.empty() || std::filesystem::exists(root / found->mount, error);
+    const std::filesystem::path mount = is_there ? root / found->mount : root / "cpu";
+    for (std::filesystem::path group = found->group;; group = group.parent_path()) {
+      const std::optional<std::size_t> here = processors_in(mount / group);
+      if (here) least = std::min(*here, least.value_or(*here));
+      if (group.empty()) break;
+    }
   }
+  return least;
 }
 
 /// Processors of the machine that the process may use: what a batch system, a container or taskset leaves of them.

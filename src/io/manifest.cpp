@@ -12,9 +12,9 @@
 #include "core/thrown_error.hpp"
 #include "core/word_list.hpp"
 #include "io/cells.hpp"
-#include "io/line_reader.hpp"
 #include "io/manifest_fields.hpp"
 #include "io/message.hpp"
+#include "io/text_lines.hpp"
 #include "io/text_source.hpp"
 
 namespace slipfit {
@@ -40,7 +40,7 @@ char delimiter_of(std::string_view names) {
 class ManifestReader::Implementation {
  public:
   Implementation(const std::filesystem::path& file, std::unique_ptr<TextSource> source)
-      : name_(name_of_file(file)), folder_(file.parent_path()), lines_(name_.c_str(), std::move(source)) {}
+      : name_(name_of_file(file)), folder_(file.parent_path()), lines_(std::move(source)) {}
 
   void read_names() {
     const std::string_view line = next_line();
@@ -60,7 +60,7 @@ class ManifestReader::Implementation {
   [[nodiscard]] const ManifestColumns& columns() const { return columns_; }
 
  private:
-  [[nodiscard]] std::string place() const { return fmt::format("{}:{}", name_, lines_.get_file_line()); }
+  [[nodiscard]] std::string place() const { return fmt::format("{}:{}", name_, lines_.number()); }
 
   [[nodiscard]] std::vector<std::string> fields_of(std::string_view line) const {
     auto fields = csv_fields(line, delimiter_);
@@ -73,7 +73,7 @@ class ManifestReader::Implementation {
   std::string_view next_line() {
     try {
       for (;;) {
-        const char* const line = lines_.next_line();
+        const char* const line = lines_.next();
         if (line == nullptr) return {};
         if (!is_comment_or_blank(line)) return line;
       }
@@ -88,7 +88,7 @@ class ManifestReader::Implementation {
   ManifestEntry entry_from(std::string_view line) {
     ManifestEntry entry;
     entry.row = ++row_;
-    entry.line = lines_.get_file_line();
+    entry.line = lines_.number();
     const std::vector<std::string> cells = fields_of(line);
     if (cells.size() != columns_.count) {
       throw ThrownError(
@@ -111,7 +111,7 @@ class ManifestReader::Implementation {
 
   std::string name_;
   std::filesystem::path folder_;
-  ::io::LineReader lines_;
+  ParsedLines lines_;
   char delimiter_ = ',';
   ManifestColumns columns_;
   std::size_t row_ = 0;

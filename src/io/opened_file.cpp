@@ -11,8 +11,8 @@
 #include "core/thrown_error.hpp"
 #include "core/word_list.hpp"
 #include "io/column_search.hpp"
-#include "io/line_reader.hpp"
 #include "io/message.hpp"
+#include "io/text_lines.hpp"
 
 namespace slipfit::reading {
 namespace {
@@ -141,10 +141,10 @@ void check_options(const ReadOptions& options, const std::string& file) {
 Error error_of_reading(const std::string& file) {
   try {
     throw;
-  } catch (const ::io::error::line_length_limit_exceeded& e) {
+  } catch (const LineTooLong& e) {
     return {"line_too_long",
             fmt::format("{}:{}: the line is longer than 16 MB; is this a text file with one row per line?", file,
-                        e.file_line)};
+                        e.number)};
   } catch (const ThrownError& e) {
     return e.error();
   } catch (const std::bad_alloc&) {

@@ -3,7 +3,20 @@
 #include <cstring>
 #include <utility>
 
-#include "io/line_reader.hpp"
+// Its reading thread, for files above 32 MB, saves little and would be one more that cannot start where threads are
+// scarce.
+#define CSV_IO_NO_THREAD
+
+// fast-cpp-csv-parser, of which only the line reader is used. It cuts long file names with strncpy on purpose, which
+// g++ warns of where it inlines it into our code.
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wstringop-truncation"
+#endif
+#include <csv.h>
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic pop
+#endif
 
 namespace slipfit::reading {
 namespace {
@@ -11,7 +24,39 @@ namespace {
 constexpr std::size_t kLineBuffer = std::size_t{256} * 1024;
 constexpr std::size_t kMostInLine = std::size_t{16} * 1024 * 1024;
 
+/// A source as the library takes it.
+class Bytes final : public ::io::ByteSourceBase {
+ public:
+  explicit Bytes(std::unique_ptr<TextSource> source) : source_(std::move(source)) {}
+  int read(char* buffer, int size) override { return source_->read(buffer, size); }
+
+ private:
+  std::unique_ptr<TextSource> source_;
+};
+
 }  // namespace
+
+struct ParsedLines::Reader {
+  ::io::LineReader lines;
+};
+
+ParsedLines::ParsedLines(std::unique_ptr<TextSource> source)
+    : reader_(new Reader{{"", std::make_unique<Bytes>(std::move(source))}}) {}
+ParsedLines::ParsedLines(ParsedLines&&) noexcept = default;
+ParsedLines& ParsedLines::operator=(ParsedLines&&) noexcept = default;
+ParsedLines::~ParsedLines() = default;
+
+const char* ParsedLines::next() {
+  try {
+    return reader_->lines.next_line();
+  } catch (const ::io::error::line_length_limit_exceeded&) {
+    throw LineTooLong(number());
+  }
+}
+
+unsigned ParsedLines::number() const {
+  return reader_->lines.get_file_line();
+}
 
 TextLines::TextLines(std::unique_ptr<TextSource> source) : source_(std::move(source)), buffer_(kLineBuffer, '\0') {}
 
@@ -39,10 +84,7 @@ const char* TextLines::next() {
 
 /// Checks the length of the line after the latest, or of its available part.
 void TextLines::check_length(std::size_t length) const {
-  if (length < kMostInLine) return;
-  ::io::error::line_length_limit_exceeded error;
-  error.set_file_line(static_cast<int>(number_ + 1));
-  throw error;
+  if (length >= kMostInLine) throw LineTooLong(number_ + 1);
 }
 
 /// The line that is not whole yet goes to the front.

@@ -2,20 +2,48 @@
 
 #include <cstddef>
 #include <memory>
+#include <stdexcept>
 #include <string>
 
 #include "io/text_source.hpp"
 
 namespace slipfit::reading {
 
-/// The lines of a recording, one after the other. As io::LineReader, with which it shares its limits, but the line ends
+/// A line of 16 MB or more, by its number. Thrown by TextLines and ParsedLines.
+struct LineTooLong : std::runtime_error {
+  explicit LineTooLong(unsigned line) : std::runtime_error("a line is longer than 16 MB"), number(line) {}
+  unsigned number;
+};
+
+/// The lines of a manifest or a profile, one after the other, by the line reader of fast-cpp-csv-parser; its header is
+/// included by text_lines.cpp alone.
+class ParsedLines {
+ public:
+  explicit ParsedLines(std::unique_ptr<TextSource> source);
+  ParsedLines(ParsedLines&&) noexcept;
+  ParsedLines& operator=(ParsedLines&&) noexcept;
+  ParsedLines(const ParsedLines&) = delete;
+  ParsedLines& operator=(const ParsedLines&) = delete;
+  ~ParsedLines();
+
+  /// As TextLines::next.
+  const char* next();
+  /// Of the latest line, from 1.
+  [[nodiscard]] unsigned number() const;
+
+ private:
+  struct Reader;
+  std::unique_ptr<Reader> reader_;
+};
+
+/// The lines of a recording, one after the other. As ParsedLines, with which it shares its limits, but the line ends
 /// are looked for with vector instructions, in a buffer that stays in the processor's cache.
 class TextLines {
  public:
   explicit TextLines(std::unique_ptr<TextSource> source);
 
   /// The next line with a NUL in place of its LF or CRLF, until the next call; null behind the last one. Throws what
-  /// the source throws, and io::error::line_length_limit_exceeded beyond 16 MB.
+  /// the source throws, and LineTooLong beyond 16 MB.
   const char* next();
   /// Returns the number of the latest line, from 1.
   [[nodiscard]] unsigned number() const { return number_; }

@@ -8,16 +8,15 @@
 #include <vector>
 
 #include "io/container/byte_stream.hpp"
-#include "io/line_reader.hpp"
 #include "slipfit/core/digest.hpp"
 
 namespace slipfit::reading {
 
-/// The bytes of a text file as io::LineReader wants them: UTF-8 or Latin-1 (UTF-16 is converted), no byte order mark,
-/// lines that end in LF or CRLF (a lone CR becomes LF), no NUL, and a line end behind the last line. (LineReader cuts
-/// lines at NUL, and without a final line end it reads one byte past the data.) `read` throws std::system_error when
-/// the disk fails; LineReader and TextLines hand that on.
-class TextSource final : public ::io::ByteSourceBase {
+/// The bytes of a text file as the readers of lines take them: UTF-8 or Latin-1 (UTF-16 is converted), no byte order
+/// mark, lines that end in LF or CRLF (a lone CR becomes LF), no NUL, and a line end behind the last line. (The line
+/// reader of fast-cpp-csv-parser cuts lines at NUL, and without a final line end it reads one byte past the data.)
+/// `read` throws std::system_error when the disk fails, and so do ParsedLines and TextLines.
+class TextSource {
  public:
   /// Opens a text. Errors: file_not_found, is_directory, not_readable, empty_file, binary_file.
   static std::unique_ptr<TextSource> open(const std::filesystem::path& file);
@@ -41,7 +40,7 @@ class TextSource final : public ::io::ByteSourceBase {
   [[nodiscard]] std::shared_ptr<const Digester> digester() const { return stream_.digester; }
   [[nodiscard]] bool is_utf16() const { return encoding_ != Encoding::Bytes; }
 
-  int read(char* buffer, int size) override;
+  int read(char* buffer, int size);
 
  private:
   enum class Encoding { Bytes, Utf16LittleEndian, Utf16BigEndian };

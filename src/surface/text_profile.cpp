@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "io/column_search.hpp"
-#include "io/line_reader.hpp"
 #include "io/opened_file.hpp"
+#include "io/text_lines.hpp"
 #include "slipfit/core/units.hpp"
 #include "surface/readers.hpp"
 
@@ -75,10 +75,10 @@ Columns read_columns(reading::OpenedFile file, const Choice& choice) {
   const reading::Dialect dialect = file.layout.dialect;
   const auto first = static_cast<unsigned>(file.layout.first_data_line);
   const std::string name = file.name;
-  ::io::LineReader reader(name.substr(0, 200), std::move(file.source));
+  reading::ParsedLines lines(std::move(file.source));
   std::vector<std::string_view> cells;
-  while (const char* const line = reader.next_line()) {
-    if (reader.get_file_line() < first) continue;
+  while (const char* const line = lines.next()) {
+    if (lines.number() < first) continue;
     reading::split(line, dialect, cells);
     const auto number = [&](std::size_t column) {
       if (column >= cells.size()) return std::pair(CellKind::Text, kHole);

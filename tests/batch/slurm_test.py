@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
-"""slurm_test.py SLIPFIT SBATCH_SCRIPT: the array script on a real Slurm of one node, started and stopped here.
+"""slurm_test.py SLIPFIT SBATCH_SCRIPT [MODULE]: the array script on a real Slurm of one node, started and stopped here.
 
 Submits the array, kills one task's slipfit on the way, submits again, merges by a dependent job, and compares with a run
-on a single machine. Exit code 77, saying why, where Slurm cannot run.
+on a single machine; and with the table of examples/dask_batch.py, where the folder MODULE of the Python module is given and
+Dask is installed. Exit code 77, saying why, where Slurm cannot run.
 """
 
 import getpass
@@ -19,7 +20,7 @@ import time
 FILES = ("results.jsonl", "summary.csv", "failures.csv")
 MODEL = "--stiffness 1000 --natural-frequency 200 --damping-ratio 0.05 --static-friction 6 --kinetic-friction 4".split()
 SHARDS = 3
-RECORDINGS = 600
+RECORDINGS = 200
 PROGRAMS = ("munged", "mungekey", "slurmctld", "slurmd", "sbatch", "squeue", "sinfo", "scontrol")
 PATH = os.environ.get("PATH", "") + ":/usr/sbin:/sbin"
 
@@ -131,11 +132,11 @@ PartitionName=test Nodes={host} Default=YES MaxTime=INFINITE State=UP
 
 
 def write_recordings(slipfit, folder):
-    for i in range(10):
+    for i in range(RECORDINGS):
         options = f"--speed 20mm/s --duration {2 + i % 3} --sample-rate 1000 --noise 0.02 --jitter 0.05 --seed {i + 1}"
         subprocess.run([slipfit, "simulate", *MODEL, *options.split(), "--out", folder / f"r{i}.csv", "--quiet"],
                        check=True)
-    rows = [f"x{i},{'none' if i % 100 == 99 else f'r{i % 10}'}.csv,0.02" for i in range(RECORDINGS)]
+    rows = [f"x{i},{'none' if i % 100 == 99 else f'r{i}'}.csv,0.02" for i in range(RECORDINGS)]
     (folder / "runs.csv").write_text("\n".join(["id,file,speed_m_per_s", *rows]) + "\n")
 
 
@@ -184,8 +185,21 @@ def compare(slipfit, folder):
     print(f"merged and single run are the same in {', '.join(FILES)}")
 
 
+def compare_dask(folder, module):
+    example = pathlib.Path(__file__).resolve().parents[2] / "examples" / "dask_batch.py"
+    environment = {**os.environ, "PYTHONPATH": f"{module}:{example.parent}"}
+    if subprocess.run([sys.executable, "-c", "import dask.distributed, slipfit"], env=environment, capture_output=True).returncode != 0:
+        print("not compared with Dask, which is not installed (Debian: python3-dask, python3-distributed)")
+        return
+    begin = time.monotonic()
+    run = subprocess.run([sys.executable, example, "runs.csv", "dask.csv"], cwd=folder, env=environment, capture_output=True, text=True)
+    if run.returncode != 1 or (folder / "dask.csv").read_bytes() != (folder / "single" / "summary.csv").read_bytes():
+        sys.exit(f"the table of Dask and that of the single run differ: {run.stdout} {run.stderr}")
+    print(f"Dask: {time.monotonic() - begin:.2f} s; {run.stdout.strip()}, the same bytes as summary.csv")
+
+
 def main():
-    slipfit, script = (str(pathlib.Path(argument).resolve()) for argument in sys.argv[1:3])
+    slipfit, script, *module = (str(pathlib.Path(argument).resolve()) for argument in sys.argv[1:4])
     missing = [program for program in PROGRAMS if not shutil.which(program, path=PATH)]
     if missing:
         skip(f"not installed: {', '.join(missing)} (Debian: slurm-wlm, munge)")
@@ -196,6 +210,8 @@ def main():
         write_recordings(slipfit, folder)
         use(cluster, slipfit, script, folder)
         compare(slipfit, folder)
+        if module:
+            compare_dask(folder, module[0])
     finally:
         cluster.stop()
         shutil.rmtree(folder, ignore_errors=True)

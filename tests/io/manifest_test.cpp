@@ -216,3 +216,11 @@ TEST_CASE("an error in one row of a manifest leaves the next rows readable") {
   REQUIRE(end.ok());
   CHECK_FALSE(end.value());
 }
+
+TEST_CASE("a manifest's line beyond 16 MB is refused by its number") {
+  const TempFile file("id,file,speed_m_per_s\na,a.csv,0.01\n" + std::string(17 << 20, '7') + "\n", "runs.csv");
+  const auto entries = slipfit::read_manifest_group(file.path(), std::nullopt);
+  REQUIRE_FALSE(entries.ok());
+  CHECK(entries.error().code == "not_readable");
+  CHECK_THAT(entries.error().message, Catch::Contains("runs.csv:3: ") && Catch::Contains("longer than 16 MB"));
+}

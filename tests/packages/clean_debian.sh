@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # clean_debian.sh RELEASE [--tests] [MIRROR]: in a fresh Debian made by debootstrap (bookworm: 12, trixie: 13) runs scripts/demo.sh of
-# this checkout, with --tests scripts/test.sh too, and makes the Debian packages; then installs, uses and removes these in another
-# fresh one. Says how long each took. Needs root, debootstrap and a mirror; about twenty minutes on two cores, with --tests twice that.
+# this checkout, with --tests scripts/test.sh and tests/packages/pip_install.sh too, and makes the Debian packages; then installs, uses and
+# removes these in another fresh one. Says how long each took. Needs root, debootstrap and a mirror; about twenty minutes on two cores,
+# with --tests twice that.
 set -euo pipefail
 usage() {
   echo "clean_debian.sh RELEASE [--tests] [MIRROR]; RELEASE: bookworm or trixie" >&2
@@ -16,7 +17,10 @@ mirror=${1:-http://deb.debian.org/debian}
 project=$(realpath "$(dirname "${BASH_SOURCE[0]}")/../..")
 work=$(mktemp -d)
 leave() {
-  umount -q "$work/builder/proc" "$work/clean/proc" 2>/dev/null || true
+  local root
+  for root in "$work/builder" "$work/clean"; do
+    umount -q "$root/dev/pts" "$root/proc" 2>/dev/null || true
+  done
   rm -rf --one-file-system "$work"
 }
 trap leave EXIT
@@ -25,6 +29,7 @@ fresh() {  # ROOT
   debootstrap --variant=minbase "$release" "$1" "$mirror" >"$work/debootstrap.log" || { tail "$work/debootstrap.log" >&2; exit 1; }
   [ ! -d /etc/apt/apt.conf.d ] || cp /etc/apt/apt.conf.d/*proxy* "$1/etc/apt/apt.conf.d/" 2>/dev/null || true
   mount -t proc proc "$1/proc" 2>/dev/null || true
+  mount -t devpts -o ptmxmode=0666 devpts "$1/dev/pts" 2>/dev/null || true  # tests open a terminal
 }
 inside() {  # ROOT COMMAND...
   chroot "$1" /usr/bin/env -i HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin DEBIAN_FRONTEND=noninteractive "${@:2}"
@@ -40,7 +45,10 @@ timed debootstrap fresh "$builder"
 mkdir "$builder/slipfit"
 (cd "$project" && git ls-files -z --cached --others --exclude-standard | xargs -0 tar -c --ignore-failed-read --) | tar -x -C "$builder/slipfit"
 timed scripts/demo.sh inside "$builder" /slipfit/scripts/demo.sh
-[ -z "$with_tests" ] || timed scripts/test.sh inside "$builder" /slipfit/scripts/test.sh
+if [ -n "$with_tests" ]; then
+  timed scripts/test.sh inside "$builder" /slipfit/scripts/test.sh
+  timed pip_install.sh inside "$builder" /slipfit/tests/packages/pip_install.sh
+fi
 build_packages() {
   inside "$builder" /slipfit/scripts/install_dependencies.sh build python
   inside "$builder" sh -c 'apt-get install -y -qq --no-install-recommends dpkg-dev file >/dev/null && cd /slipfit &&

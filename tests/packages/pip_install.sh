@@ -1,15 +1,22 @@
 #!/usr/bin/env bash
-# pip_install.sh: makes an sdist of a fresh clone of HEAD and a wheel of that, installs it by pip into a virtual environment of its own, uses
-# module and command from another folder, and names the libraries that it needs beside those of its own packages. Some minutes: the library is built.
+# pip_install.sh: makes an sdist of a fresh clone of HEAD (without git: of a copy of the sources) and a wheel of that, installs it by pip
+# into a virtual environment of its own, uses module and command from another folder, and names the libraries that it needs beside those
+# of its own packages. Some minutes: the library is built.
 set -euo pipefail
 project=$(realpath "$(dirname "${BASH_SOURCE[0]}")/../..")
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-git clone --quiet "$project" "$work/slipfit"
+if git -C "$project" rev-parse HEAD >/dev/null 2>&1; then
+  git clone --quiet "$project" "$work/slipfit"
+else
+  mkdir "$work/slipfit"
+  tar -C "$project" --exclude=./build -c . | tar -x -C "$work/slipfit"
+fi
 /usr/bin/python3 -m venv --system-site-packages "$work/environment"
 begin=$SECONDS
-(cd "$work/slipfit" && /usr/bin/python3 -c "import sys; from setuptools import build_meta; build_meta.build_sdist(sys.argv[1])" "$work/dist" > "$work/sdist.log")
+(cd "$work/slipfit" && PYTHONPATH=python/packaging /usr/bin/python3 -c "import sys, slipfit_backend; slipfit_backend.build_sdist(sys.argv[1])" "$work/dist" > "$work/sdist.log")
+grep '^slipfit: built by' "$work/sdist.log"
 "$work/environment/bin/pip" wheel --quiet --no-deps --no-build-isolation -w "$work/dist" "$work"/dist/slipfit-*.tar.gz
 "$work/environment/bin/pip" install --quiet --no-deps "$work"/dist/slipfit-*.whl
 echo "sdist, wheel and pip install: $((SECONDS - begin)) s; $(cd "$work/dist" && du -h --apparent-size ./* | tr '\n\t' '  ')"

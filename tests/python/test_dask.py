@@ -49,5 +49,4 @@ def test_the_table_of_dask_is_that_of_the_batch(count, example, tmp_path, monkey
     assert [row["id"] for row in rows] == [f"{i:04}" for i in range(count)]
     assert [row["error"] for row in rows if row["status"] == "failed"] == ["file_not_found"]
     subprocess.run([PROGRAM, "batch", manifest, "--out", tmp_path / "out", "--quiet"], check=False, capture_output=True)
-    summary = (tmp_path / "out" / "summary.csv").read_text().splitlines()
-    assert (tmp_path / "table.csv").read_text().splitlines() == [line.partition(",")[2] for line in summary]  # all but `row`
+    assert (tmp_path / "table.csv").read_bytes() == (tmp_path / "out" / "summary.csv").read_bytes()

@@ -368,6 +368,11 @@ def test_a_batch_beside_other_threads(long_manifest, tmp_path, demo):
         thread.join()
 
 
+def test_a_batch_takes_the_processors_that_it_may_use():
+    script = "import os; os.sched_setaffinity(0, {min(os.sched_getaffinity(0))}); from slipfit import _slipfit; print(_slipfit.default_jobs())"
+    assert subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True).stdout == "1\n"
+
+
 def test_batches_refuse_and_report(long_manifest, tmp_path):
     sf.batch(long_manifest, out=tmp_path / "out", jobs=2)
     assert error_of(lambda: sf.batch(long_manifest, out=tmp_path / "out")).code == "results_present"
@@ -441,7 +446,7 @@ def test_files_from_elsewhere(demo_fit, tmp_path):
 def test_a_pickle_keeps_an_assumed_unit_of_time(tmp_path):
     recording = sf.simulate(**MODEL, kinetic_friction=4, speed=0.02, duration=2, sample_rate=1000)
     rows = zip(1e3 * recording.time, recording.force)
-    (tmp_path / "ms.csv").write_text("time,force_N\n" + "".join(f"{t!r},{f!r}\n" for t, f in rows))  # seconds are assumed
+    (tmp_path / "ms.csv").write_text("time,force_N\n" + "".join(f"{float(t)!r},{float(f)!r}\n" for t, f in rows))  # seconds are assumed
     read = sf.read_recording(tmp_path / "ms.csv", speed=0.02)
     again = pickle.loads(pickle.dumps(read))
     assert sf.fit(again).to_json() == sf.fit(read).to_json()

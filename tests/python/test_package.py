@@ -2,6 +2,7 @@
 
 import os
 import re
+import shutil
 import subprocess
 import sys
 import tarfile
@@ -39,13 +40,17 @@ def test_a_script_is_no_program(tmp_path, monkeypatch):
 @pytest.fixture(scope="module")
 def sdist(tmp_path_factory):
     """Made of a copy of what the repository tracks, as a user would of a clone."""
+    if shutil.which("git") is None:
+        pytest.skip("git is not installed")
     listed = subprocess.run(["git", "-C", str(PROJECT), "ls-files", "-z"], capture_output=True, text=True, check=False)
     if listed.returncode != 0:
         pytest.skip("the sources are no git repository")
     folder = tmp_path_factory.mktemp("sources")
     subprocess.run(["cp", "--parents", "-t", str(folder), *(f for f in listed.stdout.split("\0") if f and (PROJECT / f).exists())], cwd=PROJECT, check=True)
-    script = "import sys; from setuptools import build_meta; print(build_meta.build_sdist(sys.argv[1]))"
+    script = "import sys; sys.path.insert(0, 'python/packaging'); import slipfit_backend; slipfit_backend.build_sdist(sys.argv[1])"
     run = subprocess.run([sys.executable, "-c", script, str(folder / "dist")], cwd=folder, capture_output=True, text=True, check=False)
+    if "scripts/install_dependencies.sh build python" in run.stderr:
+        pytest.skip("neither scikit-build-core nor scikit-build is installed")
     assert run.returncode == 0, run.stderr
     return tarfile.open(next((folder / "dist").glob("*.tar.gz")))
 
@@ -64,5 +69,3 @@ def test_the_metadata(sdist):
     for expected in (f"Version: {version}", "Author: the slipfit authors", "License: MIT AND GPL-3.0-only", "Classifier: Typing :: Typed",
                      "Provides-Extra: parquet"):
         assert expected in text, expected
-    entry = next(name for name in sdist.getnames() if name.endswith("entry_points.txt"))
-    assert "slipfit = slipfit.__main__:main" in sdist.extractfile(entry).read().decode()

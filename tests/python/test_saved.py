@@ -1,9 +1,12 @@
 """What was saved is opened again, and says the same."""
 
 import concurrent.futures
+import importlib.util
 import io
 import json
 import pickle
+import sys
+import types
 import warnings
 
 import numpy as np
@@ -219,6 +222,23 @@ def test_draws_have_the_stated_intervals(demo_fit):
     assert demo_fit.sample(5, seed=3).equals(demo_fit.sample(5, seed=3))
 
 
+def test_draws_for_xarray_and_arviz(demo_fit, monkeypatch):
+    """Debian has no ArviZ: a stand-in takes what InferenceData is given."""
+    pytest.importorskip("xarray")
+    draws, dataset = demo_fit.sample(50, seed=3), demo_fit.to_xarray(50, seed=3)
+    assert set(dataset.data_vars) == set(draws.columns) and dict(dataset.sizes) == {"chain": 1, "draw": 50}
+    np.testing.assert_array_equal(dataset["mass_kg"].values[0], draws["mass_kg"])
+    assert dataset["stiffness_N_per_m"].attrs["units"] == "N/m"
+    if importlib.util.find_spec("arviz") is None:
+
+        class InferenceData:
+            def __init__(self, **groups):
+                self.__dict__.update(groups)
+
+        monkeypatch.setitem(sys.modules, "arviz", types.SimpleNamespace(InferenceData=InferenceData))
+    assert demo_fit.to_inference_data(50, seed=3).posterior.equals(dataset)
+
+
 def test_every_result_has_a_line_and_a_page_for_notebooks(demo, demo_fit, sweep, folder, tmp_path):
     (tmp_path / "heights.txt").write_text("".join(f"{(i % 40) / 20 + 0.01 * (i * 7919 % 13):.3f}\n" for i in range(2000)))
     results = [demo, demo_fit, sweep, demo_fit.predict([0.01]), demo_fit.plan(), sf.compare(demo_fit, demo_fit), sf.info(TESTDATA / "demo.csv"),
@@ -226,6 +246,7 @@ def test_every_result_has_a_line_and_a_page_for_notebooks(demo, demo_fit, sweep,
     for one in results:
         assert repr(one).startswith("<") and "\n" not in repr(one) and len(repr(one)) < 250, repr(one)
         assert one._repr_html_().startswith("<"), type(one)
+    assert repr(sf.compare(demo_fit, demo_fit)).startswith("<slipfit.Comparison No difference is shown in any of ")
     assert "tangential stiffness" in demo_fit.parameters._repr_html_() and "stiffness_N_per_m: 5000.2" in repr(demo_fit.parameters)
 
 

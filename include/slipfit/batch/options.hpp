@@ -13,7 +13,7 @@
 
 namespace slipfit {
 
-/// A part of a manifest that one machine fits: `index` of `count`, from 1. Parts are balanced by file size.
+/// The part of a manifest that one machine takes: `index` of `count`, from 1. Parts take the rows in turn.
 struct Shard {
   std::size_t index = 1;
   std::size_t count = 1;
@@ -39,6 +39,10 @@ using GroupFit = std::function<Result<BatchFit>(const std::string& id, const std
 /// Returns a function that fits the sweep (slipfit/sweep.hpp) and writes it like `slipfit fit --joint --json`, with its
 /// page if there is a report.
 GroupFit group_fit(const FitOptions& options, const std::optional<BatchReport>& report);
+
+/// Recordings at a time that keep busy every processor that this process may use: affinity and control groups limit
+/// them.
+[[nodiscard]] std::size_t default_jobs();
 
 struct BatchOptions {
   std::filesystem::path manifest;
