@@ -63,14 +63,14 @@ bool rises(const BlockFit& fit) {
   return !fit.level().reloading || fit.parameters.values(kReloadForce) > 0.0;
 }
 
-BlockFit with_rise_over(double length_m, bool is_free, const FitInput& input, const BlockFit& fit) {
+BlockFit with_rise_over(double length_m, const FitInput& input, const BlockFit& slips, const BlockFit& fit) {
   const double speed = fit.scales().speed_m_per_s;
-  RiseAfterSlip rise{length_m, kLongestShare * speed * median_stick_s(fit), is_free, speed, {}, {}};
+  RiseAfterSlip rise{length_m, kLongestShare * speed * median_stick_s(slips), false, speed, {}, {}};
   for (const DetectedSlip& slip : input.segmentation.slips) {
     rise.slip_begin_s.push_back(input.recording.time_s()[slip.peak]);
     rise.slip_end_s.push_back(input.recording.time_s()[slip.trough]);
   }
-  BlockFit risen = with_rise(fit, std::make_shared<const RiseAfterSlip>(moved(std::move(rise), fit)));
+  BlockFit risen = with_rise(fit, std::make_shared<const RiseAfterSlip>(moved(std::move(rise), slips)));
   risen.parameters.values(kReloadLength) = std::log(length_m);
   return risen;
 }

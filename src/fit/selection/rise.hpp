@@ -7,9 +7,9 @@
 
 namespace slipfit::fit {
 
-/// The same cycles at the same parameters, with a rise over this length after all slips of the recording, those of
-/// `fit` where it has them. `is_free`: the fit solves for the length.
-BlockFit with_rise_over(double length_m, bool is_free, const FitInput& input, const BlockFit& fit);
+/// `fit` with a rise over this length after all slips of the recording, which begin and end where `slips`, a fit of all
+/// cycles, has them.
+BlockFit with_rise_over(double length_m, const FitInput& input, const BlockFit& slips, const BlockFit& fit);
 
 /// The same cycles at the same parameters, their rise after slips that begin and end where `fit` has them.
 BlockFit with_rise_after(const BlockFit& fit);

@@ -34,9 +34,9 @@ bool promises(const BlockFit& few, const RampBend& before) {
 }
 
 /// The data do not say how long the rise is.
-bool is_at_bound(const DampedFit& fit) {
+bool is_at_bound(const BlockFit& fit) {
   constexpr double kNear = 0.99;
-  return rise_length_m(fit) > kNear * fit.blocks.level().reloading->longest_m;
+  return std::exp(fit.parameters.values(kReloadLength)) > kNear * fit.level().reloading->longest_m;
 }
 
 /// A and l are told by this recording alone, and explain most of what bends.
@@ -44,7 +44,7 @@ bool is_justified(const DampedFit& fit, const DampedFit& plain, const RampBend& 
   const double rise = fit.blocks.parameters.values(kReloadForce);
   const std::optional<RampBend> after = ramp_bend(fit.blocks);
   const bool is_straight = after && std::abs(after->log_ratio) < thresholds::kHalvedStack * before.log_ratio;
-  return is_straight && !is_at_bound(fit) && rise > thresholds::kSureTerm * error_of(fit, kReloadForce) &&
+  return is_straight && !is_at_bound(fit.blocks) && rise > thresholds::kSureTerm * error_of(fit, kReloadForce) &&
          error_of(fit, kReloadLength) < thresholds::kTellingError && gain_of(fit, plain) > thresholds::kTierPrice;
 }
 
@@ -58,7 +58,13 @@ std::optional<DampedFit> draft_with_rise(const FitInput& input, const GiveUp& gi
   const std::optional<TermFitter> fitter = TermFitter::create(input, *plain);
   const std::vector<Minimum> minima = fitter ? fitter->minima({.rise = true}).found : std::vector<Minimum>();
   if (minima.empty() || !promises(minima.front().blocks, *bend)) return plain;
-  std::optional<DampedFit> fit = fitter->draft(minima.front().blocks);
+  const Minimum& best = minima.front();
+  if (is_at_bound(best.blocks)) {
+    const double gain = fitter->gain_on_all(best.sum_of_squares, fitter->plain().sum_of_squares);
+    if (gain > thresholds::kTierPrice) plain->rivals.push_back(coordinates_of(best.blocks));
+    return plain;
+  }
+  std::optional<DampedFit> fit = fitter->draft(best.blocks);
   if (!fit) return plain;
   if (is_justified(*fit, *plain, *bend)) return fit;
   const bool explains_more = gain_of(*fit, *plain) > thresholds::kTierPrice;
@@ -69,7 +75,7 @@ std::optional<DampedFit> draft_with_rise(const FitInput& input, const GiveUp& gi
 std::optional<DampedFit> draft_with_rise_over(double length_m, const FitInput& input, const DampedFit& plain) {
   const std::optional<TermFitter> fitter = TermFitter::create(input, plain);
   if (!fitter) return std::nullopt;
-  std::optional<DampedFit> fit = fitter->draft(with_rise_over(length_m, false, input, plain.blocks));
+  std::optional<DampedFit> fit = fitter->draft(with_rise_over(length_m, input, plain.blocks, plain.blocks));
   return fit && rises(fit->blocks) ? std::move(fit) : std::nullopt;
 }
 

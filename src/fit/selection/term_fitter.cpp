@@ -314,7 +314,7 @@ std::optional<Minimum> TermFitter::drafted(Terms terms, const Start& start) cons
   for (std::size_t length = 0; length < (rises ? kRiseLengths.size() : 1); ++length) {
     BlockFit blocks = started(BlockFit(few_, scales_of(terms, std::sqrt(start.share_of_fall * fall_s2_))), near);
     if (rises) blocks.parameters.values(kReloadLength) += std::log(kRiseLengths[length]);
-    if (terms.rise) blocks = with_rise_over(start.length_m, false, input_, blocks);
+    if (terms.rise) blocks = with_rise_over(start.length_m, input_, plain_.blocks, blocks);
     if (!solve_own(blocks)) continue;
     double sum = solve(blocks, options);
     for (int i = 0; i < kRiseSteps && rises && std::isfinite(sum); ++i) {
