@@ -67,6 +67,11 @@ double squared_fall_s2(const BlockFit& plain) {
   return average_s * average_s + kSlip2 * std::exp(-2.0 * plain.parameters.values(kLogFrequency));
 }
 
+/// Around the middles of slips seen through such an average. A slow onset begins before the slip of the plain fit.
+double half_width_of(const BlockFit& plain, double average_s) {
+  return 1.1 * median_slip_s(plain) + shown_beyond_s({plain.sensor().lag_s, average_s});
+}
+
 bool explains_more(const Minimum& a, const Minimum& b) {
   return a.sum_of_squares < b.sum_of_squares;
 }
@@ -112,9 +117,7 @@ bool is_negative(const DampedFit& fit) {
 }  // namespace
 
 std::optional<TermFitter> TermFitter::create(const FitInput& input, const DampedFit& plain, double beyond_s) {
-  // A slow onset begins before the slip of the plain fit.
-  const double half_width_s = 1.1 * median_slip_s(plain.blocks) + 0.5 * std::sqrt(squared_fall_s2(plain.blocks)) +
-                              shown_beyond_s({plain.blocks.sensor().lag_s, 0.0}) + beyond_s;
+  const double half_width_s = half_width_of(plain.blocks, std::sqrt(squared_fall_s2(plain.blocks))) + beyond_s;
   TermFitter fitter(input, plain, half_width_s);
   return fitter.cycles_ ? std::optional(std::move(fitter)) : std::nullopt;
 }
@@ -126,7 +129,7 @@ TermFitter::TermFitter(const FitInput& input, const DampedFit& plain, double hal
       fall_s2_(squared_fall_s2(plain.blocks)),
       half_width_s_(half_width_s),
       hum_(hum_of(input.recording, plain.blocks)),
-      cycles_(set_of(cycles_without(plain.excluded))) {
+      cycles_(set_of(cycles_without(plain.excluded, half_width_s))) {
   if (!cycles_) return;
   const std::vector<CycleData>& all = cycles_->cycles();
   few_ = set_of(some_of(all, kFewCycles));
@@ -225,9 +228,8 @@ std::optional<DampedFit> TermFitter::fit(const BlockFit& near) const {
   return fit && is_negative(*fit) ? without_damping(*std::move(fit)) : std::move(fit);
 }
 
-std::vector<CycleData> TermFitter::cycles_without(const std::vector<std::size_t>& excluded) const {
-  return same_cycles_of(plain_.blocks,
-                        cut_cycles(input_.recording, input_.segmentation, half_width_s_, excluded, hum_));
+std::vector<CycleData> TermFitter::cycles_without(const std::vector<std::size_t>& excluded, double half_width_s) const {
+  return same_cycles_of(plain_.blocks, cut_cycles(input_.recording, input_.segmentation, half_width_s, excluded, hum_));
 }
 
 std::vector<CycleData> TermFitter::some_of(const std::vector<CycleData>& cycles, std::size_t count) const {
@@ -398,11 +400,13 @@ std::optional<DampedFit> TermFitter::without_outliers(const BlockFit& rough) con
   const std::vector<std::size_t> outliers = find_outliers(residuals, noise);
   const std::vector<std::size_t> censored = beyond_clip(input_.recording, input_.quality, residuals, noise);
   std::vector<std::size_t> excluded = united(initial, united(outliers, censored));
-  const Cycles clean = excluded == plain_.excluded ? cycles_ : set_of(cycles_without(excluded));
+  // No wider than they need: what bends is seen in the sticks.
+  const double half_width_s = half_width_of(plain_.blocks, rough.sensor().average_s);
+  const Cycles clean = set_of(cycles_without(excluded, half_width_s));
   if (!clean) return std::nullopt;
   std::optional<BlockFit> blocks = settled(carried_to(clean, rough), held_);
   if (!blocks) return std::nullopt;
-  return DampedFit{*std::move(blocks), false, held_, std::nullopt, half_width_s_, std::move(excluded)};
+  return DampedFit{*std::move(blocks), false, held_, std::nullopt, half_width_s, std::move(excluded)};
 }
 
 /// zeta is held at 0, and called unknown, as it is without the terms.

@@ -79,7 +79,8 @@ class TermFitter {
   using Cycles = std::shared_ptr<const CycleSet>;
 
   [[nodiscard]] Cycles set_of(std::vector<CycleData> cycles) const;
-  [[nodiscard]] std::vector<CycleData> cycles_without(const std::vector<std::size_t>& excluded) const;
+  [[nodiscard]] std::vector<CycleData> cycles_without(const std::vector<std::size_t>& excluded,
+                                                      double half_width_s) const;
   [[nodiscard]] std::vector<CycleData> some_of(const std::vector<CycleData>& cycles, std::size_t count) const;
   /// The blocks from the features of their slips and these values on.
   [[nodiscard]] BlockFit started(BlockFit blocks, const Coordinates& values) const;
