@@ -401,7 +401,8 @@ std::optional<DampedFit> TermFitter::without_outliers(const BlockFit& rough) con
   const std::vector<std::size_t> censored = beyond_clip(input_.recording, input_.quality, residuals, noise);
   std::vector<std::size_t> excluded = united(initial, united(outliers, censored));
   // No wider than they need: what bends is seen in the sticks.
-  const double half_width_s = half_width_of(plain_.blocks, rough.sensor().average_s);
+  const bool is_averaged = rough.solves_for(kSensorTime);
+  const double half_width_s = is_averaged ? half_width_s_ : half_width_of(plain_.blocks, rough.sensor().average_s);
   const Cycles clean = set_of(cycles_without(excluded, half_width_s));
   if (!clean) return std::nullopt;
   std::optional<BlockFit> blocks = settled(carried_to(clean, rough), held_);
