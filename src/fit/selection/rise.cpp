@@ -11,7 +11,6 @@
 namespace slipfit::fit {
 namespace {
 
-constexpr double kLongestShare = 0.5;  // of a stick
 constexpr int kMostRounds = 10;
 constexpr double kSmallLengthChange = 0.2;  // of ln l, in standard errors
 
@@ -65,7 +64,7 @@ bool rises(const BlockFit& fit) {
 
 BlockFit with_rise_over(double length_m, const FitInput& input, const BlockFit& slips, const BlockFit& fit) {
   const double speed = fit.scales().speed_m_per_s;
-  RiseAfterSlip rise{length_m, kLongestShare * speed * median_stick_s(slips), false, speed, {}, {}};
+  RiseAfterSlip rise{length_m, kLongestRise * speed * median_stick_s(slips), false, speed, {}, {}};
   for (const DetectedSlip& slip : input.segmentation.slips) {
     rise.slip_begin_s.push_back(input.recording.time_s()[slip.peak]);
     rise.slip_end_s.push_back(input.recording.time_s()[slip.trough]);

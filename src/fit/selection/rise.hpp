@@ -7,6 +7,9 @@
 
 namespace slipfit::fit {
 
+/// Share of a stick: over a longer path a rise cannot be distinguished from a softer spring.
+inline constexpr double kLongestRise = 0.5;
+
 /// `fit` with a rise over this length after all slips of the recording, which begin and end where `slips`, a fit of all
 /// cycles, has them.
 BlockFit with_rise_over(double length_m, const FitInput& input, const BlockFit& slips, const BlockFit& fit);

@@ -36,7 +36,6 @@ constexpr std::array kRiseLengths{1.0, 0.5};
 
 constexpr int kRiseStarts = 6;
 constexpr double kShortestRise = 0.02;  // of a stick
-constexpr double kLongestRise = 0.5;    // of a stick
 constexpr double kSlip2 = 5.6;          // W^2 of an average that draws the fall out as much as the slip itself does
 constexpr std::size_t kFewCycles = 16;
 constexpr std::size_t kLeastEnough = 40;
@@ -83,13 +82,13 @@ bool solve_own(BlockFit& blocks) {
   return std::isfinite(solve(blocks, options));
 }
 
-/// From where it stands. Empty where a slip has no solution.
+/// The solution from these parameters on. Empty where a slip has none.
 std::optional<BlockFit> solved_from(BlockFit blocks, const SolveOptions& options) {
   const bool is_solved = std::isfinite(solve(blocks, options)) && has_slips(blocks);
   return is_solved ? std::optional(std::move(blocks)) : std::nullopt;
 }
 
-/// As far as comparing terms needs, its rise after the slips as they come out.
+/// The solution as far as comparing terms needs it, its rise after the slips that come out.
 std::optional<BlockFit> roughly_settled(BlockFit start, const Held& held, double tolerance) {
   const SolveOptions options{held, false, true, kCompareIterations, tolerance, true};
   std::optional<BlockFit> blocks = solved_from(std::move(start), options);
@@ -99,7 +98,7 @@ std::optional<BlockFit> roughly_settled(BlockFit start, const Held& held, double
   return blocks;
 }
 
-/// The rise of what it returns is not settled (settle_rise).
+/// The solution but for its rise, which settle_rise settles.
 std::optional<BlockFit> settled(BlockFit blocks, const Held& held) {
   const bool has_valley = blocks.scales().law == FrictionLaw::Weakening || blocks.solves_for(kSensorTime);
   return solved_from(std::move(blocks),
@@ -287,7 +286,7 @@ std::vector<TermFitter::Start> TermFitter::starts_of(Terms terms) const {
   return starts;
 }
 
-/// From what the clock resolves to half a stick, over which a rise cannot be told from a softer spring.
+/// From what the clock resolves to the longest.
 std::vector<double> TermFitter::lengths_of_rise() const {
   const double speed = plain_.blocks.scales().speed_m_per_s;
   const double stick_m = speed * median_stick_s(plain_.blocks);

@@ -10,7 +10,7 @@
 
 namespace slipfit::fit {
 
-/// The terms that a fit may have beside those of every fit.
+/// The terms that a fit may have besides those of every fit.
 struct Terms {
   bool average = false;    ///< an average of the sensor, its time W a parameter (docs/model.md section 7)
   bool weakening = false;  ///< friction that weakens over a slip distance D_c in place of Coulomb friction (section 9)
@@ -36,8 +36,8 @@ struct Minima {
 /// them compare the terms, and only what they do not rule out is fitted to all cycles.
 class TermFitter {
  public:
-  /// All must outlive this. `beyond_s`: how much farther cycles are cut around their slips than the terms need. Empty
-  /// where too few cycles are that wide.
+  /// Cuts the cycles of `plain` wide enough for every term, and `beyond_s` wider. Empty where too few cycles are that
+  /// wide. `input` and `plain` must outlive the fitter.
   static std::optional<TermFitter> create(const FitInput& input, const DampedFit& plain, double beyond_s = 0.0);
 
   /// Minima of the cycles that compare the terms. A minimum without a slip distance, without an average or without
@@ -46,19 +46,20 @@ class TermFitter {
 
   /// The plain fit of the cycles that compare the terms.
   [[nodiscard]] Minimum plain() const;
-  /// Their fit with the terms of `near`, another fit of the recording. Empty where a slip has no solution.
+  /// The fit of these cycles with the terms of `fit`, another fit of the recording. Empty where a slip has no solution.
   [[nodiscard]] std::optional<Minimum> near(const BlockFit& fit) const;
 
-  /// From a minimum, with a lag of first order in place of its average, the best of two starts. Infinity where there is
-  /// no solution.
+  /// The least sum of squares with a lag of first order in place of the average of a minimum, from two starts. Infinity
+  /// where there is no solution.
   [[nodiscard]] double least_with_lag(const Minimum& near) const;
 
-  /// By how much more likely `better` makes these cycles, twice the logarithm, each at its best noise; of all cycles in
-  /// proportion.
+  /// Twice the logarithm of the likelihood ratio of two sums of squares of these cycles, each at its best noise. Above
+  /// 0 where `better` is smaller.
   [[nodiscard]] double gain_on_some(double better, double other) const;
+  /// The same of all cycles, if they show as much in proportion to their residuals.
   [[nodiscard]] double gain_on_all(double better, double other) const;
 
-  /// A minimum as a fit that is not ruled out: its errors are those of all cycles in proportion.
+  /// A minimum as a fit that is not ruled out. Its covariance is scaled to that of all cycles.
   [[nodiscard]] DampedFit rival_of(const Minimum& minimum) const;
 
   /// The fit of all cycles with the terms of `near`, without the outliers of its own model, with its uncertainty but
@@ -82,7 +83,7 @@ class TermFitter {
   [[nodiscard]] std::vector<CycleData> cycles_without(const std::vector<std::size_t>& excluded,
                                                       double half_width_s) const;
   [[nodiscard]] std::vector<CycleData> some_of(const std::vector<CycleData>& cycles, std::size_t count) const;
-  /// The blocks from the features of their slips and these values on.
+  /// The blocks with these values, their cycles by the features of their slips.
   [[nodiscard]] BlockFit started(BlockFit blocks, const Coordinates& values) const;
   [[nodiscard]] Scales scales_of(Terms terms, double average_s) const;
   [[nodiscard]] std::vector<Start> starts_of(Terms terms) const;
@@ -92,7 +93,7 @@ class TermFitter {
   /// Of starts that share an average only the best one: it is what separates minima.
   [[nodiscard]] std::vector<Minimum> drafts_of(Terms terms) const;
   [[nodiscard]] Minimum descended(Minimum draft) const;
-  /// As far as comparing terms needs. Empty where a slip has no solution.
+  /// The solution near another fit, as far as comparing terms needs it. Empty where a slip has none.
   [[nodiscard]] std::optional<BlockFit> solved(const Cycles& cycles, const BlockFit& near) const;
   [[nodiscard]] bool has_term(const BlockFit& fit) const;
   [[nodiscard]] BlockFit with_poorest_level(BlockFit wandering) const;
