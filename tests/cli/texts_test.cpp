@@ -28,8 +28,8 @@ TEST_CASE("a test without a finding states its level") {
 
 TEST_CASE("AICc is printed with the compared model, the sign in words and the threshold") {
   const std::string text = fit_text({"--speed", "10mm/s"});
-  CHECK_THAT(text,
-             Contains("lower than that of the undamped model: the added parameter is justified, which takes 10 lower"));
+  CHECK_THAT(
+      text, Contains("lower than that of the undamped model: the added parameter is justified (10 lower is required)"));
   CHECK_THAT(text, Contains("a model with more parameters is justified") && !Contains("pays"));
   CHECK_THAT(fit_text({"--speed", "10mm/s", "--tier", "undamped"}), Contains("requested by --tier\n"));
   CHECK_THAT(fit_text({"--speed", "10mm/s", "--tier", "sawtooth"}),

@@ -141,7 +141,7 @@ AverageTrial try_average(const FitInput& input, const DampedFit& plain) {
   if (!is_taken && !hides_damping(fit->blocks)) return {};
   if (!is_taken) return {std::nullopt, std::move(fit)};
   if (!tells_slips(*fit)) {
-    fit->fall_doubt = "the slips and the average of the sensor behind which they are seen cannot be told apart";
+    fit->fall_doubt = "the data cannot separate the slips from the sensor averaging that rounds them";
   }
   if (other) fit = beside_rival(*std::move(fit), *other);
   return {std::move(fit), std::nullopt};

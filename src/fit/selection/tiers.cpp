@@ -32,7 +32,7 @@ double drop_of(const CycleState& state) {
 std::string against(const Candidate& candidate, const Candidate& other) {
   const double gain = *other.aicc - *candidate.aicc;
   return fmt::format(
-      "AICc {:.1f} {} than that of the {} model: {}, which takes {:g} lower", std::abs(gain),
+      "AICc {:.1f} {} than that of the {} model: {} ({:g} lower is required)", std::abs(gain),
       gain < 0.0 ? "higher" : "lower", other.tier == Tier::Sawtooth ? "sawtooth" : "undamped",
       gain > thresholds::kTierPrice ? "the added parameter is justified" : "the added parameter is not justified",
       thresholds::kTierPrice);

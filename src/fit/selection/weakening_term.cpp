@@ -53,9 +53,10 @@ Candidate judged(Candidate candidate, const DampedFit& fit, const DampedFit& cou
   const double most =
       is_rounded ? std::max(before, thresholds::kChanceStack * left.by_chance) : thresholds::kHalvedStack * before;
   candidate.chosen = gain > thresholds::kTierPrice && sigmas > thresholds::kSureTerm && after <= most;
-  candidate.reason += candidate.chosen ? ": the slip distance is justified"
-                                       : fmt::format(": it takes {:g} lower, {:g} standard errors and half",
-                                                     thresholds::kTierPrice, thresholds::kSureTerm);
+  candidate.reason += candidate.chosen
+                          ? ": the slip distance is justified"
+                          : fmt::format(": an AICc {:g} lower, {:g} standard errors and half the residual are required",
+                                        thresholds::kTierPrice, thresholds::kSureTerm);
   return candidate;
 }
 
