@@ -43,7 +43,7 @@ constexpr bool is_of_recording(Coordinate coordinate) {
 
 /// Those of the rig and of friction in the slip come first.
 inline constexpr int kOfSlip = kSlipDistance + 1;
-/// Which of the coordinates stand still while fitting.
+/// States which of the coordinates are fixed while fitting.
 using Held = std::array<bool, kCoordinates>;
 
 /// k in N/m, w_n in rad/s and zeta by their logarithms and itself; all other coordinates are 0.
@@ -80,7 +80,7 @@ constexpr bool depends_on_speed(FrictionLaw law) {
   return law == FrictionLaw::Exponential || law == FrictionLaw::Hyperbolic || law == FrictionLaw::Logarithmic;
 }
 
-/// What the coordinates count in.
+/// Holds the units of the coordinates.
 struct Units {
   double force = 1.0;
   double level = 0.0;               ///< force at which the level counts 0

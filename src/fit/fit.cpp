@@ -22,7 +22,7 @@
 namespace slipfit {
 namespace {
 
-/// Where in the slip the model misses most, as readers of a warning see it.
+/// Describes where in the slip the model misses most, for readers of a warning.
 std::string words_of_position(double position) {
   if (position < 0.0) return fmt::format("{:.0f} % of the slip time before its onset", -100.0 * position);
   if (position > 1.0) return fmt::format("{:.0f} % of the slip time after its end", 100.0 * (position - 1.0));
@@ -56,7 +56,7 @@ FitDiagnostics diagnostics_of(const Recording& recording, const DampedFit& dampe
   return diagnostics;
 }
 
-/// Of more cycles than a fit needs.
+/// Marks the cycles that were offered to the fit, and warns where these are not all.
 void tell_selection(const fit::OfferedSlips& offered, FitResult& result) {
   std::size_t selected = 0;
   for (std::size_t slip = 0; slip < result.cycles.size(); ++slip) {
@@ -70,7 +70,7 @@ void tell_selection(const fit::OfferedSlips& offered, FitResult& result) {
                                          selected, result.cycles.size())});
 }
 
-/// Of the slip and the stick that makes good its drop.
+/// Returns the period caused by this slip: slip time plus the stick time that recovers the drop, in s.
 double recovery_s(const BlockFit& blocks, const CycleState& state) {
   const double straight_s = (state.z0() - state.intercept()) / state.omega_rad_per_s;
   if (!blocks.level().reloading || !(straight_s > state.slip_s()) ||
@@ -157,7 +157,7 @@ Warnings warnings_of(const DampedFit& chosen) {
   return warnings;
 }
 
-/// What several parts of the fit say under one code, in one warning.
+/// Merges the warnings of one code, which several parts of the fit may give, into one.
 Warnings one_of_each_code(const Warnings& warnings) {
   Warnings merged;
   for (const Warning& warning : warnings) {

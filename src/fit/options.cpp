@@ -62,7 +62,7 @@ Result<double> held_value(ParameterId id, const std::string& text) {
   return value;
 }
 
-/// With "NAME=VALUE".
+/// Returns the held parameters with "NAME=VALUE" added, or an error where that is not valid.
 Result<HeldParameters> with_held(HeldParameters held, const std::string& text) {
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos) {

@@ -7,9 +7,9 @@ namespace {
 
 using Id = ParameterId;
 
-// identified_below: 5 % for what straight ramps and the timing of slips tell, 10 % for forces and what follows from two
-// of them, a quarter for what a slip tells by its shape alone. Conventions; the coverage of what they let through is in
-// docs/accuracy.md.
+// identified_below: 5 % for what straight ramps and the timing of slips determine, 10 % for forces and what follows
+// from two of them, a quarter for what only the shape of a slip determines. These are conventions; the coverage of what
+// they let through is in docs/accuracy.md.
 constexpr std::array kTable{
     ParameterInfo{Id::Stiffness, "stiffness_N_per_m", "tangential stiffness k", "N/m", kNotNegative, 0.05, true},
     ParameterInfo{Id::StiffnessExponent, "stiffness_exponent", "stiffness exponent p, k ~ V^p", "", kAnyNumber, 0.25},

@@ -39,7 +39,7 @@ double samples_per_slip(std::span<const SweepRecording> recordings, const SweepD
   return signal::median(samples);
 }
 
-/// Over all cycles of all recordings.
+/// Returns the root mean square of the recordings' noise, each weighted by its number of cycles.
 double residual_rms(const SweepSolution& solution) {
   double square = 0.0;
   for (const fit::BlockFit& recording : solution.recordings) {
@@ -48,14 +48,15 @@ double residual_rms(const SweepSolution& solution) {
   return std::sqrt(square / static_cast<double>(solution.cycles()));
 }
 
-/// Its spread, w_n longer to that side.
+/// Returns the spread of the outcome, with a one-sided spread of w_n that averaging adds.
 fit::Spread spread_of(const SweepOutcome& outcome, double averaging) {
   fit::Spread spread = outcome.spread;
   spread.one_sided.emplace_back(averaging * fit::Coordinates::Unit(fit::kLogFrequency));
   return spread;
 }
 
-/// Empty, with a reason, where there is none or where it is known to worse than a factor.
+/// Returns the estimate of a spacing. It is empty, with a reason, where there is no spacing or where it is known to
+/// worse than a factor.
 Estimate spacing_of(const std::optional<fit::Jet>& spacing, const fit::Intervals& intervals,
                     const std::string& why_none) {
   if (!spacing) return unknown(why_none);
@@ -135,7 +136,7 @@ class Assembler {
     if (!findings.damping.value) findings.frequency_unknown = findings.damping.note;
     add_average(findings);
     add_difference_doubt(findings);
-    // Only recordings with one level and one static friction tell damping from friction that depends on the speed.
+    // Only recordings with one level and one static friction separate damping from friction that depends on speed.
     if (!solution.sweep.sharing.level || !solution.sweep.sharing.difference) {
       findings.damping_doubt = "holds for Coulomb friction only: the recordings share no level or static friction";
     }

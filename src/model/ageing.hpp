@@ -36,7 +36,8 @@ inline constexpr double kSharpDifference = 1e-10;
 std::optional<double> aged_difference_N(const AgeingLaw& law, const StickTimeOf& stick_time,
                                         double sharp = kSharpDifference);
 
-/// The same with derivatives (Jet as in Ceres), one Newton step from the solution: `stick_s` at F_s - F_k held there.
+/// Returns the same difference with derivatives (Jet as in Ceres), by one Newton step from the solution. `stick_s` is
+/// evaluated with F_s - F_k held there.
 template <class Jet>
 Jet aged_difference_N(double solution_N, const AgeingLawOf<Jet>& law, const Jet& stick_s,
                       double stick_by_difference_s_per_N) {

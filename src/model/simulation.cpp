@@ -25,7 +25,7 @@ class NormalDeviates {
   }
 
  private:
-  /// In (0, 1], 53 bits.
+  /// Returns a number in (0, 1] with 53 bits.
   double uniform() { return (static_cast<double>(generator_() >> 11U) + 1.0) * 0x1.0p-53; }
 
   std::mt19937_64 generator_;
@@ -61,7 +61,7 @@ class CoulombSlips {
   model::Slip slip_;
 };
 
-/// The same under friction that depends on the speed.
+/// Solves slips under friction that depends on the speed, one after the other.
 class VelocitySlips {
  public:
   VelocitySlips(const model::SpeedUnits& units, const VelocityFriction& friction, double speed_m_per_s)

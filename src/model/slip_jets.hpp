@@ -12,7 +12,7 @@ template <class Jet>
 struct SlipJets {
   Jet force_unit_N, z0, zeta, slope, rate;
 
-  /// Of F_s - F_k(0+) and the slope of F_k(v) at rest at this speed's load.
+  /// Takes F_s - F_k(0+) and the slope of F_k(v) at rest, both at this speed's load.
   SlipJets(const Jet& stiffness_N_per_m, const Jet& omega_rad_per_s, const Jet& damping_ratio, const Jet& difference_N,
            const Jet& slope_N_s_per_m, const Jet& alpha_s_per_m, double speed_m_per_s)
       : force_unit_N(stiffness_N_per_m * speed_m_per_s / omega_rad_per_s),
@@ -40,7 +40,7 @@ struct SlipJets {
     tau.v = -jet(end.first).v / end.second.value;
     return tau;
   }
-  /// The same of slip and straight stick.
+  /// Returns w_n times the period of slip and straight stick.
   [[nodiscard]] Jet tau_period(const VelocityTrack& track) const { return z0 - jet(track.after()); }
 };
 

@@ -189,7 +189,7 @@ class SlipSeries {
     Series slope{};  ///< of v'
   };
 
-  /// From order n of everything to order n + 1.
+  /// Extends everything from order n to order n + 1.
   template <std::size_t n>
   void extend(const ScaledSlip& slip, Terms& terms) {
     constexpr double kNext = 1.0 / static_cast<double>(n + 1);

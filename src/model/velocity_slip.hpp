@@ -14,7 +14,7 @@
 
 namespace slipfit::model {
 
-/// How exactly a slip is followed.
+/// States how exactly a slip is followed.
 struct SlipAccuracy {
   double tolerance;  ///< of the last terms of a step, over the size of each component
   int most_steps;    ///< an ordinary slip needs 4 to 20; one that needs more than these has no solution
@@ -84,14 +84,14 @@ class SlipWalker {
 
   [[nodiscard]] double length() const { return to.tau - from.tau; }
 
-  /// So long after the begin of the last step.
+  /// Returns the node that is `time` after the start of the last step.
   [[nodiscard]] SlipNode inside(double time) const {
     return {from.tau + time, series.at(time), series.acceleration_at(time),
             from.integral + integral_of(series.s, time)};
   }
 
  private:
-  /// Of the power n in the last step, over the sizes of the components.
+  /// Returns the size of the term of power n in the last step, over the sizes of the components.
   [[nodiscard]] double size_of_term(std::size_t n) const {
     double worst = std::max(std::abs(series.s[n]), std::abs(series.v[n])) / (1.0 + slip_.lambda);
     if constexpr (kWithGradient) {
@@ -146,7 +146,7 @@ SlipNode node_at_turn(const SlipWalker<kWithGradient>& walker) {
   return walker.inside(time_at_level(acceleration, 0.0, 0.0, walker.length()));
 }
 
-/// What the speed does inside the last step: comes to rest from above, or turns back before it does.
+/// Describes what the speed does inside the last step: it comes to rest from above, or it turns back before it does.
 struct SpeedEvent {
   std::optional<SlipNode> rest, turn;
 };
@@ -183,10 +183,10 @@ inline bool has_settled(const ScaledSlip& slip, const SlipState& state) {
   return distance * (1.0 + std::abs(slip.law.rate)) < 1e-6 && slip.total_damping_ratio() > 0.0;
 }
 
-/// From stick until the mass is at rest again, or has turned back before, or has settled. One turn decides: orbits of
-/// two variables do not cross, so what has turned back once stays inside its own loop, docs/model.md (16).
-/// `after_step(walker)` is called after each step; there is none where an overdamped slip cannot even slow down to the
-/// driving speed again, which would take thousands of stiff steps to see.
+/// Follows the slip from stick until the mass is at rest again, or has turned back before, or has settled. One turn
+/// decides: orbits of two variables do not cross, so what has turned back once stays inside its own loop, docs/model.md
+/// (16). `after_step(walker)` is called after each step. There is no step where an overdamped slip cannot even slow
+/// down to the driving speed again, which would take thousands of stiff steps to see.
 template <bool kWithGradient, class AfterStep>
 SlipEnd follow_slip(const ScaledSlip& slip, const SlipAccuracy& accuracy, const AfterStep& after_step) {
   if (!(2.0 * slip.zeta + slip.law.smallest_slope_of_fast_slip() < 2.0)) return {SlipOutcome::Settles, {}};
@@ -213,7 +213,7 @@ class SlipTrace {
  public:
   explicit SlipTrace(const ScaledSlip& slip) : walker_(slip, kExact) {}
 
-  /// Empty where the slip runs away or needs steps without end.
+  /// Returns the motion at tau; it is empty where the slip runs away or needs steps without end.
   std::optional<TracePoint> at(double tau) {
     while (!rest_ && walker_.to.tau < tau) {
       // Steps of 0.01 on average: too stiff.

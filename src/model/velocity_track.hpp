@@ -21,7 +21,7 @@ struct TrackValue {
   double value = 0.0, d_z0 = 0.0, d_zeta = 0.0, d_slope = 0.0, d_rate = 0.0;
 };
 
-/// Where the slip ends: z' = 1 where it sticks again, else z'' = 0.
+/// Describes the end of the slip: z' = 1 where it sticks again, else z'' = 0.
 struct TrackEnd {
   double tau = 0.0;
   TrackValue first, second;  ///< z', z''
@@ -36,8 +36,9 @@ struct TrackEnd {
 /// its smallest sliding speed, as Slip does.
 class VelocityTrack {
  public:
-  /// Empty where the slip has no start (z0 + 2 zeta <= 0), is not finite, runs away, settles without turning back, or
-  /// is stiffer than any that a recording shows: friction that grows by more than exp(10) within the slip.
+  /// Solves the slip. It is empty where the slip has no start (z0 + 2 zeta <= 0), is not finite, runs away, settles
+  /// without turning back, or is stiffer than any that a recording shows: friction that grows by more than exp(10)
+  /// within the slip.
   static std::optional<VelocityTrack> solve(double z0, double zeta, double slope, double rate) {
     return solve(z0, zeta, ScaledLaw{slope, rate});
   }
@@ -45,11 +46,11 @@ class VelocityTrack {
 
   /// The whole cycle: tau < 0 is the stick before, tau > tau_end() the stick after.
   [[nodiscard]] TrackPoint at(double tau) const;
-  /// What spring and damper carry together, z + 2 zeta z'.
+  /// Returns the force that spring and damper carry together, z + 2 zeta z'.
   [[nodiscard]] TrackPoint transmitted_at(double tau) const;
-  /// The integral of what `at` gives, and of its derivatives, from the onset to any time; `d_tau` is z itself.
+  /// Returns the integral of what `at` gives, and of its derivatives, from the onset to any time; `d_tau` is z itself.
   [[nodiscard]] TrackPoint integral_to(double tau) const;
-  /// The same of what `transmitted_at` gives.
+  /// Returns the same integral of what `transmitted_at` gives.
   [[nodiscard]] TrackPoint transmitted_integral_to(double tau) const;
   [[nodiscard]] bool resticks() const { return resticks_; }
   [[nodiscard]] double tau_end() const { return end_.tau; }

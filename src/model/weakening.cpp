@@ -111,7 +111,7 @@ void WeakeningSlip::end_when_weakened() {
   end_ = weakened_at(Jet(tau_end_) - end_.ddz / dddz);
 }
 
-/// Only where zeta <= 0: otherwise the speed does not come back to 0.
+/// This happens only where zeta <= 0: otherwise the speed does not come back to 0.
 void WeakeningSlip::end_while_weakening() {
   tau_end_ = time_to_stop(stiffening_.a, zeta_.a);
   weakened_.tau = Jet(std::numeric_limits<double>::infinity());
@@ -128,7 +128,7 @@ WeakeningSlip::State WeakeningSlip::state_at(double tau) const {
   return {now, end_.z + since, Jet(1.0), Jet(0.0), end_.integral + since * (end_.z + 0.5 * since)};
 }
 
-/// In the view: z, its derivative and its integral.
+/// Returns the state in the view: z, its derivative and its integral.
 WeakeningSlip::State WeakeningSlip::shown_at(double tau) const {
   State state = state_at(tau);
   if (view_ != ForceView::Transmitted) return state;

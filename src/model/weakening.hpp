@@ -31,7 +31,7 @@ class WeakeningSlip {
 
   /// The force in this view at any tau.
   [[nodiscard]] WeakeningPoint at(double tau) const;
-  /// Its mean over a time around tau, which is `average` long at this w_n.
+  /// Returns the mean of the force over a time around tau, which is `average` long at this w_n.
   [[nodiscard]] WeakeningPoint mean_at(double tau, double average) const;
   /// The integral of what `at` gives, and of its derivatives, from the onset to any time; `d_tau` is the force itself.
   [[nodiscard]] WeakeningPoint integral_to(double tau) const;

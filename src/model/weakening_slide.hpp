@@ -47,7 +47,7 @@ Slide<T> slide_by_series(const T& g, const T& zeta, const T& tau) {
   return slide;
 }
 
-/// The same at any tau.
+/// Returns the slide of the same equation at any tau.
 template <class T>
 Slide<T> slide_at(const T& g, const T& zeta, const T& tau) {
   using std::abs, std::cos, std::exp, std::sin, std::sqrt;

@@ -106,7 +106,7 @@ inline double WeakeningTrack::Walker::ddz() const {
   return -2.0 * zeta_.a * slope() - force();
 }
 
-/// That of z'' + 2 zeta z' + z = 0 is one of its terms.
+/// After the friction has fallen, the integral of z follows from z'' + 2 zeta z' + z = 0, of which z is one term.
 inline WeakeningTrack::Jet WeakeningTrack::Walker::integral() const {
   if (part_ == Part::Before) return tau_ * (slip_.z0_ + 0.5 * tau_);
   if (part_ == Part::After) return integral_after_ + tau_ * (after_ + 0.5 * tau_);

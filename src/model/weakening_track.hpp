@@ -49,7 +49,7 @@ class WeakeningTrack {
     /// `is_next`: the last time was one step before, in the same part of the slip.
     void weaken(double tau, bool is_next);
     void swing(double tau, bool is_next);
-    /// From g and zeta to z0, zeta and the distance.
+    /// Converts derivatives with respect to g and zeta to those with respect to z0, zeta and the distance.
     [[nodiscard]] Jet chained(const Slope& value) const;
 
     const WeakeningSlip& slip_;

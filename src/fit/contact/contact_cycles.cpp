@@ -12,7 +12,7 @@ namespace {
 
 /// The smaller of the two falls of a slip, over the whole swing: below it noise might be taken for an edge.
 constexpr double kSmallestFall = 0.1;
-constexpr double kHidingSteps = 1.5;  // a longer step hides when the edge was
+constexpr double kHidingSteps = 1.5;  // a longer step leaves the time of the edge unknown
 
 class Finder {
  public:
@@ -37,7 +37,7 @@ class Finder {
   }
 
  private:
-  /// The two largest falls from one sample to the next, plateau between them.
+  /// Finds the two largest falls from one sample to the next, with the plateau between them.
   [[nodiscard]] std::optional<ContactCycle> find_edges(std::size_t slip) const {
     const DetectedSlip& swing = slips_[slip];
     // The smoothed turning points may lie a sample off the edge.
@@ -148,7 +148,7 @@ class Finder {
   const std::vector<DetectedSlip>& slips_;
   ContactCycles found_;
   std::vector<LineSums> ramps_;  // after each cycle
-  double ramp_slope_ = 0.0;      // of the ramps as they stand, drift included
+  double ramp_slope_ = 0.0;      // of the ramps as measured, drift included
 };
 
 }  // namespace

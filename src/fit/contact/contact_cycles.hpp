@@ -32,7 +32,7 @@ struct ContactCycles {
   double step_s = 0.0;
 };
 
-/// Empty below 3 cycles with both edges.
+/// Finds the cycles of the contact; the result is empty below 3 cycles with both edges.
 std::optional<ContactCycles> find_contact_cycles(const Recording& recording, const Segmentation& segmentation);
 
 }  // namespace slipfit::fit

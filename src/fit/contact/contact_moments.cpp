@@ -44,9 +44,9 @@ std::optional<double> log_omega_for(const Eigen::Vector4d& moments, double zeta)
               std::log(2.5 / moments(kSlipTime)), std::log(turn / moments(kSlipTime)));
 }
 
-/// By how much the mean error of an edge can repeat where its phase against the clock does: largest gap in the phases
-/// of a regular recording, in steps. 0 where the onsets scatter by more than a step: then the spread over the cycles
-/// tells.
+/// Returns by how much the mean error of an edge can repeat where its phase against the clock does. It is the largest
+/// gap in the phases of a regular recording, in steps. It is 0 where the edges scatter by more than a step: then the
+/// spread over the cycles shows the error.
 double phase_gap(const ContactCycles& found, double ContactCycle::*edge) {
   const std::size_t count = found.cycles.size();
   const LineSums line = line_sums(

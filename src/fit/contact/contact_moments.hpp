@@ -7,7 +7,7 @@
 
 namespace slipfit::fit {
 
-/// What the four means of the cycles are worth: ln(k V), onset jump, end jump, slip time.
+/// Holds the four means over the cycles with their errors: ln(k V), onset jump, end jump, slip time.
 struct ContactMoments {
   Eigen::Vector4d mean = Eigen::Vector4d::Zero();
   Eigen::Matrix4d covariance = Eigen::Matrix4d::Zero();

@@ -7,7 +7,7 @@
 namespace slipfit::fit {
 namespace {
 
-/// Variance of the samples about straight sticks.
+/// Returns the variance of the samples about straight sticks.
 double stick_variance(const BlockFit& fit) {
   double scatter = 0.0;
   double freedom = 0.0;
@@ -27,8 +27,8 @@ struct Slopes {
   std::vector<double> slope;     ///< of the model, unit of force a second
 };
 
-/// Of the samples around one slip. The derivative with respect to the onset is minus that of the force with respect to
-/// time.
+/// Returns the residuals and slopes of the samples around one slip. The derivative with respect to the onset is minus
+/// that of the force with respect to time.
 Slopes slopes_of(const BlockFit& fit, std::size_t cycle) {
   const CycleModel& model = fit.model(cycle);
   std::vector<double> residuals(model.residuals());

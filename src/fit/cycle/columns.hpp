@@ -18,14 +18,14 @@ class Columns {
   Columns(const Scales& scales, const LevelModel& level);
 
   [[nodiscard]] const std::vector<Coordinate>& coordinates() const { return coordinates_; }
-  /// Whether the fit solves for it.
+  /// Returns whether the fit solves for the coordinate.
   [[nodiscard]] bool has(Coordinate coordinate) const { return column_[index(coordinate)].has_value(); }
   [[nodiscard]] std::optional<std::size_t> find(Coordinate coordinate) const { return column_[index(coordinate)]; }
   [[nodiscard]] bool has_constant() const { return has_constant_; }
-  /// Number of the level's functions beside the constant.
+  /// Returns the number of the level's functions besides the constant.
   [[nodiscard]] std::size_t drift() const { return drift_; }
   [[nodiscard]] std::size_t own() const { return own_; }
-  /// Number of those that cycles have in common, which come first.
+  /// Returns the number of columns that cycles have in common; they come first.
   [[nodiscard]] std::size_t common() const { return first_drift() + drift_; }
   [[nodiscard]] std::size_t size() const { return common() + own_; }
   [[nodiscard]] std::size_t first_drift() const { return coordinates_.size() + (has_constant_ ? 1 : 0); }

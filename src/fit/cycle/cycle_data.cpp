@@ -13,7 +13,7 @@
 namespace slipfit::fit {
 namespace {
 
-/// Of a wave over the samples of a bin, plain and times the distance from the mean time.
+/// Holds the sum of a wave over the samples of a bin, and that of the wave times the distance from the mean time.
 struct WaveSums {
   std::complex<double> sum, moment;
 };
@@ -138,11 +138,11 @@ class Cutter {
     [[nodiscard]] double spread() const { return std::max(0.0, tt - t * t / count); }
     [[nodiscard]] double cross() const { return tf - t * f / count; }
     [[nodiscard]] double slope() const { return spread() > 0.0 ? cross() / spread() : 0.0; }
-    /// About the line.
+    /// Returns the sum of squares about the line.
     [[nodiscard]] double scatter() const { return std::max(0.0, ff - f * f / count - slope() * cross()); }
   };
 
-  /// About the first sample: near enough to the mean that nothing cancels.
+  /// Sums about the first sample, which is near enough to the mean that nothing cancels.
   [[nodiscard]] Sums sum(std::span<const double> force, std::size_t begin, std::size_t end) const {
     Sums sums;
     for_each_run(begin, end, [&](std::size_t from, std::size_t to) {
@@ -159,7 +159,7 @@ class Cutter {
     return sums;
   }
 
-  /// The runs of samples that are not excluded.
+  /// Calls `action` for each run of samples that are not excluded.
   template <typename Action>
   void for_each_run(std::size_t begin, std::size_t end, const Action& action) const {
     for (const std::size_t gap : excluded_in(begin, end)) {

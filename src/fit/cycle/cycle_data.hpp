@@ -13,7 +13,8 @@
 
 namespace slipfit::fit {
 
-/// What the cycles of several recordings have in common: each cycle's own onset force and level are draws from it.
+/// Holds what the cycles of several recordings have in common: each cycle's own onset force and level are draws from
+/// it.
 struct Population {
   double load = 1.0;      ///< normal force over that of the reference: friction is proportional to it
   double force = 1.0;     ///< unit of the recording's level and friction difference: Units::force times the load
@@ -21,25 +22,26 @@ struct Population {
   /// Spread with which a cycle's own level follows F_k(0+); 0 where the level is common to the cycles.
   double level_sd = 0.0;
   double slip_speed_m_per_s = 1.0;  ///< Units::slip_speed_m_per_s
-  /// Of the speed over Units::speed_m_per_s, where k goes with the speed; empty where it does not.
+  /// Logarithm of the speed over Units::speed_m_per_s where k varies with the speed; it is empty otherwise.
   std::optional<double> log_speed{};
 };
 
 /// The time of the sensor that a fit solves for, if any.
 enum class FreeTime { None, Lag, Average };
 
-/// Of a sensor: its lag of first order T and the time W over which it averages; 0: none.
+/// Holds the times of a sensor: the lag T of first order and the time W over which it averages; 0 means none.
 struct SensorTimes {
   double lag_s = 0.0;
   double average_s = 0.0;
 };
 
-/// How long after a slip, or before it, such a sensor still shows it: to e^-8.
+/// Returns for how long before or after a slip such a sensor still shows it, in s. For a lag this is the decay to e^-8.
 inline double shown_beyond_s(const SensorTimes& sensor) {
   return 8.0 * sensor.lag_s + 0.5 * sensor.average_s;
 }
 
-/// How a recording enters a fit: what makes its numbers of order one, and how its samples see a slip.
+/// Describes how a recording enters a fit: the scales that make its numbers of order one, and how its samples see a
+/// slip.
 struct Scales {
   double speed_m_per_s = 1.0;
   double force = 1.0;         ///< typical half drop
@@ -50,7 +52,7 @@ struct Scales {
   ForceView view = ForceView::Spring;  ///< spring or transmitted: what the samples show of a slip
   double sensor_lag_s = 0.0;      ///< T of a first-order sensor, 1 / (2 pi bandwidth); 0: it shows the force as it is
   double sensor_average_s = 0.0;  ///< W: each sample is the mean over this time around its time stamp
-  FreeTime free_time = FreeTime::None;  ///< T or W is a parameter of the fit, and stands where that is
+  FreeTime free_time = FreeTime::None;  ///< T or W may be a parameter of the fit, which then gives its value
   double sensor_time_unit_s = 1.0;      ///< of that parameter, (time / unit)^2: what slips show of it is linear in that
   double half_period_s = 1.0;           ///< from the largest to the smallest force of a slip, pi / (w_n b)
   FrictionLaw law = FrictionLaw::Coulomb;
@@ -62,7 +64,7 @@ struct Scales {
   [[nodiscard]] double level_unit() const { return population ? population->force : force; }
 };
 
-/// What a bin keeps of a mains line: mean and least-squares slope of its cosine and sine over the bin's samples.
+/// Holds the mean and the least-squares slope of a mains line's cosine and sine over the samples of a bin.
 struct LineInBin {
   std::array<double, 2> mean{};
   std::array<double, 2> slope{};
@@ -106,10 +108,11 @@ struct CycleData {
 /// Neighbours, whose joined ramps halve the error of k.
 constexpr std::size_t kCyclesOfRun = 8;
 
-/// Which slips are offered to the fit: all, or of many some 512 of 16 samples in the fall from 80 to 20 %, and of slips
-/// with more samples so many less, down to 128, for each tells more and costs more. They are runs of neighbours from
-/// the first to the last, at uneven distances, so that a line in the force has no images. What limits the shared
-/// parameters then is rarely the noise; the time of a fit grows no more.
+/// Selects the slips that are offered to the fit. These are all slips or, where there are many, some 512 with 16
+/// samples in the fall from 80 to 20 %. Slips with more samples are fewer, down to 128, because each holds more
+/// information and costs more time. They are runs of neighbours from the first to the last, at uneven distances, so
+/// that a line in the force has no images. With so many slips the noise rarely limits the shared parameters, and the
+/// time of a fit grows no more.
 class OfferedSlips {
  public:
   OfferedSlips(std::size_t slips, double samples_in_fall);
@@ -130,13 +133,14 @@ OfferedSlips offered_slips(const Recording& recording, const Segmentation& segme
 std::vector<CycleData> cut_cycles(const Recording& recording, const Segmentation& segmentation, double half_width_s,
                                   const std::vector<std::size_t>& excluded, const HumLines& hum = {});
 
-/// With another force of every sample.
+/// Cuts the recording as cut_cycles does, with `force` as the force of its samples.
 std::vector<CycleData> cut_cycles_of(std::span<const double> force, const Recording& recording,
                                      const Segmentation& segmentation, double half_width_s,
                                      const std::vector<std::size_t>& excluded, const HumLines& hum = {});
 
-/// A cycle with some 20 samples in a half period of its slip, enough for its shape, and fewer beyond two half periods
-/// of its middle, where the curve is smooth; sticks as they are. `step_s`: of the clock.
+/// Returns the cycle with some 20 samples in a half period of its slip, enough for its shape, and fewer at more than
+/// two half periods from its middle, where the curve is smooth. Sticks remain as they are. `step_s` is the step of the
+/// clock.
 CycleData thinned(CycleData cycle, double middle_s, double half_period_s, double step_s);
 
 /// So many of the cycles, from the first to the last; all where there are no more. `size`: at least 2.

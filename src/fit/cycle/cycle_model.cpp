@@ -68,8 +68,8 @@ std::optional<CycleState> CycleModel::state(const Coordinates& shared, const dou
   return CycleState{f, CoulombCycle(f.z0(), f.zeta, {w * sensor.lag_s, w * sensor.average_s, transmitted})};
 }
 
-/// Forms residuals and their Jacobian column by column, as the processor's vectors do it several rows at a time. Where
-/// a column will stand, there the rows first put what it is made of.
+/// Forms residuals and their Jacobian column by column, as the processor's vectors do it several rows at a time. The
+/// rows first store the ingredients of a column in the place of that column.
 class CycleModel::Rows {
   using Index = Eigen::Index;
   using Column = Eigen::Map<Eigen::ArrayXd>;
@@ -122,7 +122,7 @@ class CycleModel::Rows {
     return {residuals_, at(onset_), at(onset_ + 1), at(kLogFrequency), by_time, at(kDamping), stride_};
   }
 
-  /// What the rows have put becomes residuals and Jacobian.
+  /// Turns what the rows have stored into residuals and Jacobian.
   void finish(const CycleFrame& frame) const {
     const double by_noise = 1.0 / scales_.noise;
     const double u = frame.force_scale;
@@ -197,16 +197,16 @@ class CycleModel::Rows {
 
  private:
   [[nodiscard]] double* at(Index column) const { return jacobian_ + column * stride_; }
-  /// Of a coordinate that the fit solves for.
+  /// Returns the column of a coordinate that the fit solves for.
   [[nodiscard]] Index of(Coordinate coordinate) const { return static_cast<Index>(*columns_.find(coordinate)); }
   [[nodiscard]] Index constant() const { return drift_ - 1; }
-  /// Of the rows that are not ties.
+  /// Returns the part of a column that holds the rows that are not ties.
   [[nodiscard]] Column column(Index column) const { return {at(column), rows_.force.size()}; }
   [[nodiscard]] double constant_force() const {
     return cycle_.level_->per_cycle ? scales_.level + scales_.force * values_.local[2]
                                     : scales_.level_zero() + scales_.level_unit() * *values_.constant;
   }
-  /// k goes with the speed by this, and w_n by half of it. docs/model.md (26)
+  /// k varies with the speed by this, and w_n by half of it. docs/model.md (26)
   [[nodiscard]] double log_speed() const { return *scales_.population->log_speed; }
 
   void differentiate(const CycleFrame& frame, const Column& z, double by_noise) const {

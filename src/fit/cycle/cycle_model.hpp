@@ -32,7 +32,7 @@ struct CycleRows {
   Eigen::ArrayXXd level;  ///< the level's functions but for the constant, a column each (slopes in rows of slopes)
 };
 
-/// Without the level's functions.
+/// Returns the rows of a cycle without the level's functions.
 CycleRows rows_of(const CycleData& cycle);
 
 /// The cycles of a recording as fits use them, at least thresholds::kFewestFitted, with the level's functions at all
@@ -44,7 +44,7 @@ class CycleSet {
   static std::optional<CycleSet> create(std::vector<CycleData> cycles, std::vector<double> reference_s,
                                         LevelModel level, const Scales& scales);
 
-  /// The same cycles above another level.
+  /// Returns the same cycles above another level.
   [[nodiscard]] CycleSet with_level(LevelModel level, const Scales& scales) const;
 
   [[nodiscard]] const std::vector<CycleData>& cycles() const { return cycles_; }
@@ -68,7 +68,7 @@ class CycleSet {
 /// where the level is per cycle, the level. The last is 0 and unused otherwise.
 using Local = std::array<double, 3>;
 
-/// Where a cycle's residuals find their parameters.
+/// Points to the parameters of a cycle's residuals.
 struct CycleValues {
   const Coordinates* shared = nullptr;  ///< those of Columns::coordinates are read
   /// The level's constant; null where it has none: a level per cycle outside a sweep. In a sweep a level per cycle
@@ -78,7 +78,7 @@ struct CycleValues {
   const double* local = nullptr;
 };
 
-/// What the physical numbers are for one cycle, whatever the friction law.
+/// Holds the physical numbers of one cycle that do not depend on the friction law.
 struct CycleFrame {
   double stiffness_N_per_m = 0.0;
   double omega_rad_per_s = 0.0;
@@ -105,12 +105,13 @@ struct CycleState : CycleFrame {
   [[nodiscard]] double intercept() const {
     return std::visit([](const auto& law) { return law.intercept(); }, motion);
   }
-  /// Above the level, as the sensor shows it.
+  /// Returns the force above the level, as the sensor shows it.
   [[nodiscard]] double force_at(double time_s) const {
     const double tau = tau_at(time_s);
     return force_scale * std::visit([tau](const auto& law) { return double{law.at(tau).z}; }, motion);
   }
-  /// The same of the sticks before and after the slip, continued to the onset.
+  /// Returns the same force for the stick before the slip, continued to the onset; `stick_after` does so for the stick
+  /// after it.
   [[nodiscard]] double stick_before() const {
     return force_scale * std::visit([](const auto& law) { return law.shown_before(); }, motion);
   }
@@ -125,12 +126,13 @@ struct CycleState : CycleFrame {
 /// level of its own to F_k(0+).
 class CycleModel {
  public:
-  /// What is given must outlive the model.
+  /// The set, the scales and the columns must outlive the model.
   CycleModel(const CycleSet& set, std::size_t cycle, const Scales& scales, const Columns& columns);
 
   [[nodiscard]] std::size_t residuals() const { return data_->residuals() + ties(); }
   [[nodiscard]] const Columns& columns() const { return *columns_; }
-  /// Where the lines' cosines and sines stand in the level's parameters: at their end.
+  /// Returns the index of the lines' first cosine in the level's parameters, whose last ones are the lines' cosines and
+  /// sines.
   [[nodiscard]] std::size_t first_wave() const {
     return (columns_->has_constant() ? 1 : 0) + columns_->drift() - 2 * level_->lines_Hz.size();
   }
@@ -142,25 +144,26 @@ class CycleModel {
   /// slip has no solution.
   bool evaluate(const CycleValues& values, double* residuals, double* jacobian) const;
 
-  /// Whether the slip has a solution in closed form.
+  /// Returns whether the slip has a solution in closed form.
   [[nodiscard]] bool is_inside(const CycleValues& values) const {
     return state(*values.shared, values.local).has_value();
   }
 
-  /// In closed form, as the sensor shows it; friction that depends on the speed counts as if it did not. Empty where
-  /// the slip has no solution. `shared`: at Units::speed_m_per_s where k goes with the speed.
+  /// Returns the state in closed form, as the sensor shows it; friction that depends on the speed counts as if it did
+  /// not. It is empty where the slip has no solution. `shared` applies at Units::speed_m_per_s where k varies with the
+  /// speed.
   [[nodiscard]] std::optional<CycleState> state(const Coordinates& shared, const double* local) const;
-  /// Without hum. `level`: constant, where there is one, and drift.
+  /// Returns the level without hum. `level` points to the constant, where there is one, and the drift.
   [[nodiscard]] double level_at(double time_s, const double* level, const double* local) const;
   [[nodiscard]] double hum_at(double time_s, const double* level) const;
-  /// Of the rise after a slip; 0 where sticks are straight.
+  /// Returns the contribution of the rise after a slip to the force; it is 0 where sticks are straight.
   [[nodiscard]] double rise_at(double time_s, const Coordinates& shared) const;
 
  private:
   class Rows;
 
   [[nodiscard]] RiseAfterSlip::Shape rise_of(const Coordinates& shared) const;
-  /// At the recording's speed: k goes with it, and w_n of the same mass.
+  /// Returns the coordinates at the recording's speed: k varies with it, and so does w_n of the same mass.
   [[nodiscard]] Coordinates at_speed(const Coordinates& shared) const;
   /// `here`: at the recording's speed.
   [[nodiscard]] CycleFrame frame(const Coordinates& here, const double* local) const;

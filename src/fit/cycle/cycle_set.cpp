@@ -44,7 +44,8 @@ double even_step_of(const std::vector<double>& time_s, double tolerance_s) {
   return step_s;
 }
 
-/// What written times are rounded by changes the force on the steepest part of a slip by this little of the noise.
+/// Returns the rounding of written times, in s, that changes the force on the steepest part of a slip by kOfNoise of
+/// the noise.
 double tolerated_rounding_s(const Scales& scales) {
   constexpr double kOfNoise = 0.01;
   return kOfNoise * scales.noise / scales.force * scales.half_period_s / std::numbers::pi;
@@ -97,7 +98,7 @@ class LevelRow {
   std::vector<double> slopes_;
 };
 
-/// At every residual row of a cycle.
+/// Returns the level's functions but for the constant, at every residual row of a cycle.
 Eigen::ArrayXXd level_of(const CycleData& data, const LevelModel& level, const Scales& scales) {
   Eigen::ArrayXXd rows(static_cast<Eigen::Index>(data.residuals()),
                        static_cast<Eigen::Index>(level.columns_behind_constant()));

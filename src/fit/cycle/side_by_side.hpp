@@ -6,8 +6,8 @@
 
 namespace slipfit::fit {
 
-/// Whether work on so many samples is worth the start of a second thread: that of their residuals takes 3 ms then.
-/// Below it threads take as long to start and to share the cache as they save.
+/// Returns whether work on so many samples is worth the start of a second thread. Their residuals take 3 ms at the
+/// limit. Below it threads take as long to start and to share the cache as they save.
 inline bool pays_side_by_side(std::size_t samples) {
   constexpr std::size_t kLarge = 60000;
   return samples >= kLarge && usable_processors() > 1;

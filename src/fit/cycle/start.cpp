@@ -41,8 +41,8 @@ std::vector<double> level_through(const BlockFit& fit, const std::vector<double>
   return coefficients;
 }
 
-/// Of the line through the middle of a rise: stick wherever there is any, and the steepest part of a rise without.
-/// Empty where it has one sample.
+/// Returns the slope of the line through the middle of a rise. This is stick wherever the rise has any, and otherwise
+/// the steepest part of the rise. The slope is empty where the middle has one sample.
 std::optional<double> slope_in_middle(const Recording& recording, const DetectedSlip& before,
                                       const DetectedSlip& after) {
   const auto time_s = recording.time_s();
@@ -66,8 +66,8 @@ std::optional<double> slope_in_middle(const Recording& recording, const Detected
   return spread > 0.0 ? std::optional(cross / spread) : std::nullopt;
 }
 
-/// From trough to peak, which were found without the mains: samples between them still hold it. Empty where they are
-/// one sample.
+/// Returns the slope from trough to peak, which were found without the mains: samples between them still contain it. It
+/// is empty where they are one sample.
 std::optional<double> slope_of_whole(const Recording& recording, const DetectedSlip& before,
                                      const DetectedSlip& after) {
   const double duration_s = recording.time_s()[after.peak] - recording.time_s()[before.trough];

@@ -6,7 +6,7 @@
 
 namespace slipfit::fit {
 
-/// All but the span of time, which the cycles of the fit give.
+/// Returns all scales but the span of time, which the cycles of the fit give.
 Scales scales_of(const Recording& recording, const Quality& quality, const Segmentation& segmentation);
 
 /// Median slope of the rises over the speed, N/m (or 1/m); 0 where no rise has two samples in its middle.

@@ -35,7 +35,8 @@ class CoulombCycle {
   [[nodiscard]] bool resticks() const { return slip.resticks; }
   /// Spring force above the level at tau = 0 of the stick after the slip.
   [[nodiscard]] double intercept() const { return after.intercept; }
-  /// As the sensor shows the sticks before and after it, continued to tau = 0.
+  /// Returns the force of the stick before the slip as the sensor shows it, continued to tau = 0; `shown_after` returns
+  /// that of the stick after it.
   [[nodiscard]] double shown_before() const { return before_slip(0.0).z; }
   [[nodiscard]] double shown_after() const { return after_slip(0.0).z; }
 
@@ -49,7 +50,7 @@ class CoulombCycle {
     const double decay = std::exp(-slip.zeta * tau);
     return in_slip(tau, decay * std::cos(slip.b * tau), decay * std::sin(slip.b * tau));
   }
-  /// Of the straight sticks before and after the slip.
+  /// Returns a point of the straight stick before the slip; `after_slip` returns one of the stick after it.
   [[nodiscard]] Point before_slip(double tau) const { return as_shown({slip.z0 + tau, 1.0, 0.0, 1.0}); }
   [[nodiscard]] Point after_slip(double tau) const {
     return as_shown({after.intercept + tau, after.d_z0, after.d_zeta, 1.0});
@@ -57,7 +58,8 @@ class CoulombCycle {
 
   /// Derivatives of the force with respect to the law's coordinates, of the point's.
   [[nodiscard]] static std::array<double, 1> by_law(const Point& point) { return {point.d_zeta}; }
-  /// At fixed tau, and the part of that by the times of the sensor.
+  /// Returns the derivative of the force with respect to ln w_n at fixed tau; `by_log_sensor` returns the part of it
+  /// that comes from the times of the sensor.
   [[nodiscard]] static double by_log_omega(const Point& point) { return point.d_log_omega; }
   [[nodiscard]] static double by_log_sensor(const Point& point) { return point.d_log_omega; }
 
@@ -93,7 +95,7 @@ class CoulombCycle {
   };
 
  private:
-  /// From exp(-zeta tau) cos b tau and exp(-zeta tau) sin b tau.
+  /// Returns a point of the slip from c = exp(-zeta tau) cos b tau and bs = exp(-zeta tau) sin b tau.
   [[nodiscard]] Point in_slip(double tau, double c, double bs) const {
     const double s = bs / slip.b;
     return sensor_.transmitted ? model::transmitted_wave(slip, tau, c, s) : model::slip_wave(slip, tau, c, s);

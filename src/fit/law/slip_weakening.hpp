@@ -38,8 +38,8 @@ class WeakeningCycle {
  public:
   using Point = model::WeakeningPoint;
 
-  /// Empty where D_c is far beyond (F_s - F_k) / k, from which on friction
-  /// that weakens makes no stick-slip: a weak slip may lie above that limit, but not all.
+  /// Solves the cycle. It is empty where D_c is far above (F_s - F_k) / k, from which on friction that weakens makes no
+  /// stick-slip: a weak slip may lie above that limit, but not all.
   static std::optional<WeakeningCycle> solve(double z0, double omega_rad_per_s, const Coordinates& values,
                                              const SensorTimes& sensor, const Scales& scales) {
     const double root = values(kSlipDistance);
@@ -66,7 +66,8 @@ class WeakeningCycle {
   [[nodiscard]] bool resticks() const { return slip_.resticks(); }
   /// Spring force above the level at tau = 0 of the stick after the slip.
   [[nodiscard]] double intercept() const { return slip_.intercept(); }
-  /// As the sensor shows the sticks before and after it, continued to tau = 0.
+  /// Returns the force of the stick before the slip as the sensor shows it, continued to tau = 0; `shown_after` returns
+  /// that of the stick after it.
   [[nodiscard]] double shown_before() const { return slip_.at(0.0).z - lag_tau(); }
   [[nodiscard]] double shown_after() const { return slip_.at(2.0 * tau_end()).z - 2.0 * tau_end() - lag_tau(); }
 
@@ -85,7 +86,8 @@ class WeakeningCycle {
   [[nodiscard]] std::array<double, 2> by_law(const Point& point) const {
     return {point.d_zeta, by_root_ * point.d_distance};
   }
-  /// At fixed tau, and the part of that by the times of the sensor.
+  /// Returns the part of `by_log_omega` that comes from the times of the sensor. `by_log_omega` returns the derivative
+  /// of the force with respect to ln w_n at fixed tau.
   [[nodiscard]] static double by_log_sensor(const Point& point) { return point.d_log_omega; }
   [[nodiscard]] double by_log_omega(const Point& point) const {
     return point.d_log_omega + distance_ * point.d_distance;

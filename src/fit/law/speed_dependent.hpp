@@ -59,7 +59,7 @@ class SpeedDependentCycle {
  public:
   using Point = ShownPoint;
 
-  /// Empty where the slip has no solution.
+  /// Solves the cycle; it is empty where the slip has no solution.
   static std::optional<SpeedDependentCycle> solve(double z0, const Coordinates& values, const SensorTimes& sensor,
                                                   const Scales& scales) {
     const double rate_unit = scales.speed_m_per_s / scales.population->slip_speed_m_per_s;
@@ -87,7 +87,8 @@ class SpeedDependentCycle {
   [[nodiscard]] std::array<double, 3> by_law(const Point& point) const {
     return {point.d_zeta, by_slope_ * point.d_law[0], rate_unit_ * point.d_law[1] + by_rate_ * point.d_law[0]};
   }
-  /// At fixed tau, and the part of that by the times of the sensor.
+  /// Returns the derivative of the force with respect to ln w_n at fixed tau; `by_log_sensor` returns the part of it
+  /// that comes from the times of the sensor.
   [[nodiscard]] static double by_log_omega(const Point& point) { return point.d_log_omega; }
   [[nodiscard]] static double by_log_sensor(const Point& point) { return point.d_log_omega; }
 

@@ -17,7 +17,7 @@
 namespace slipfit::fit {
 namespace {
 
-/// Of the lines that the fit has, where the rest with its hum put back has them.
+/// Returns the frequencies of the lines that the fit has, as the rest shows them with its hum added back.
 std::vector<double> refine_all(const BlockFit& fit, Rest rest) {
   rest.add_interference(fit);
   std::vector<double> frequencies_Hz;
@@ -54,8 +54,8 @@ bool is_in_step(const BlockFit& fit, double frequency_Hz) {
   return phase_coherence(fit, frequency_Hz) > thresholds::kInStep;
 }
 
-/// Whether sampling at this rate shows a frequency in step with the slips where the line is: harmonics from beyond the
-/// Nyquist frequency. Those from farther than twice the rate are never the strongest.
+/// Returns whether sampling at this rate shows a frequency in step with the slips where the line is. Such frequencies
+/// are harmonics above the Nyquist frequency. Those from farther than twice the rate are never the strongest.
 bool may_be_folded(const BlockFit& fit, double frequency_Hz, double rate_Hz) {
   constexpr int kFolds = 2;
   for (int fold = 1; fold <= kFolds; ++fold) {
@@ -66,8 +66,8 @@ bool may_be_folded(const BlockFit& fit, double frequency_Hz, double rate_Hz) {
   return false;
 }
 
-/// Of the rest: each of several runs under a window of its own, without which a line would leak into all of the
-/// spectrum.
+/// Computes the spectrum of the rest. Each of several runs has a window of its own, without which a line would leak
+/// into all of the spectrum.
 class RestSpectrum {
  public:
   explicit RestSpectrum(const EvenRest& rest) {
@@ -88,11 +88,11 @@ class RestSpectrum {
   [[nodiscard]] std::optional<double> strongest(double lowest_Hz, double resolution_Hz) const {
     return signal::strongest_line(power_, bin_Hz_, resolution_Hz, lowest_Hz);
   }
-  /// Of the samples.
+  /// Returns the rate of the samples.
   [[nodiscard]] double rate_Hz() const { return rate_Hz_; }
   /// Distance up to which the window of a run spreads a line.
   [[nodiscard]] double reach_Hz() const { return reach_Hz_; }
-  /// No farther from the frequency than so much.
+  /// Returns the largest power at a distance of at most `distance_Hz` from the frequency.
   [[nodiscard]] double largest_near(double frequency_Hz, double distance_Hz) const {
     const auto at = [&](double f_Hz) {
       const auto bin = static_cast<std::size_t>(std::max(0.0, f_Hz / bin_Hz_));
@@ -146,7 +146,7 @@ class NewLines {
 
   [[nodiscard]] std::size_t seen() const { return seen_Hz_.size(); }
 
-  /// Those that are no images of others or of what is left of the known ones.
+  /// Returns the new lines that are no images of others or of what is left of the known ones.
   [[nodiscard]] std::vector<double> strong() const {
     double strongest = 0.0;
     for (const auto* lines_Hz : {&known_Hz_, &seen_Hz_}) {

@@ -8,9 +8,9 @@
 
 namespace slipfit::fit {
 
-/// How the kinetic level F_k is described: one polynomial in time (additive drift of the sensor, order 0: constant) or
-/// one value a cycle (friction that wanders); beside it hum of the mains, a cosine and a sine for each line, and a rise
-/// of the force after slips.
+/// Describes the kinetic level F_k by one polynomial in time (additive drift of the sensor, order 0: constant) or by
+/// one value a cycle (friction that wanders). It also describes hum of the mains by a cosine and a sine for each line,
+/// and a rise of the force after slips.
 struct LevelModel {
   bool per_cycle = false;
   std::size_t terms = 1;  ///< of the Legendre polynomial; 0 where per_cycle

@@ -9,12 +9,12 @@ namespace slipfit::fit {
 /// that scatter only imitates; at most a third of the slips.
 std::size_t choose_level_terms(const std::vector<double>& time_s, const std::vector<double>& level);
 
-/// That polynomial of so many terms, at each of the middles.
+/// Returns the values of that polynomial with so many terms, at each of the middles.
 std::vector<double> smooth_level(const std::vector<double>& time_s, const std::vector<double>& level,
                                  std::size_t terms);
 
-/// What is left of the middles (standard deviation) after that polynomial and the drops: with one kinetic friction the
-/// middle of a slip goes with its drop, however the static friction scatters.
+/// Returns the standard deviation of the middles about that polynomial and a multiple of the drops. With one kinetic
+/// friction the middle of a slip varies with its drop, however the static friction scatters.
 double unexplained_level(const std::vector<double>& time_s, const std::vector<double>& level,
                          const std::vector<double>& drop, std::size_t terms);
 

@@ -8,9 +8,9 @@
 
 namespace slipfit::fit {
 
-/// Of all fitted lines together, unit of the force; 0 without.
+/// Returns the amplitude of all fitted lines together, in the unit of the force; it is 0 without lines.
 double hum_amplitude(const BlockFit& fit);
-/// Of those of the mains.
+/// Returns the amplitude of the fitted lines that belong to the mains, in the unit of the force.
 double mains_amplitude(const BlockFit& fit);
 /// FitDiagnostics::stick_slope_by_lines, of a line through so many seconds.
 double slope_by_lines(const BlockFit& fit, double length_s);
@@ -19,7 +19,7 @@ double slope_by_lines(const BlockFit& fit, double length_s);
 /// has come first, in its order, with the same phase in the middle of the recording; others are 0.
 std::vector<double> hum_at_other_frequencies(const BlockFit& fit, const std::vector<double>& frequencies_Hz);
 
-/// The fit has lines at these frequencies already, up to what the noise hides.
+/// Returns whether the fit has lines at these frequencies already, up to a difference that is small against the noise.
 bool is_same_hum(const BlockFit& fit, const std::vector<double>& frequencies_Hz);
 
 /// The largest fitted line that a drive may make: its speed changes by more than thresholds::kRippleShare and never

@@ -8,17 +8,17 @@
 namespace slipfit::fit {
 
 /// Reloading hysteresis: after a slip the force rises by A (1 - exp(-x / l)) more than by k x over the path x = V t of
-/// the stick (docs/model.md section 10). The ends of the slips stand still while fitting.
+/// the stick (docs/model.md section 10). The ends of the slips are fixed while fitting.
 struct RiseAfterSlip {
   double length_m = 0.0;  ///< l with which a fit begins
-  /// l of which it ends at most: over a longer path the rise cannot be told from a softer spring.
+  /// The fit ends with this l at most: over a longer path the rise cannot be distinguished from a softer spring.
   double longest_m = 0.0;
   bool is_free = false;  ///< the fit solves for l
   double speed_m_per_s = 0.0;
   std::vector<double> slip_begin_s;  ///< of every slip of the recording
   std::vector<double> slip_end_s;
 
-  /// What the share of A depends on.
+  /// Holds what the share of A depends on.
   struct Shape {
     double length_m = 0.0;
     double average_s = 0.0;  ///< over which the sensor averages; 0: it does not
@@ -33,7 +33,7 @@ struct RiseAfterSlip {
   /// after it.
   [[nodiscard]] Share at(std::size_t slip, double time_s, const Shape& shape) const;
 
-  /// Mean and least-squares slope over a bin's samples, evenly spread.
+  /// Holds mean and least-squares slope over a bin's samples, evenly spread.
   struct Line {
     Share mean, slope;
   };

@@ -85,7 +85,8 @@ void add_uneven(const double* values, const double* time_s, std::size_t count, d
   }
 }
 
-/// Of an even clock that an uneven one is seen as: the mean step, or the usual one where there are long gaps.
+/// Returns the step of the even clock that replaces an uneven one, in s. It is the mean step, or the usual one where
+/// there are long gaps.
 double even_step_s(const Recording& recording) {
   const auto size = static_cast<double>(recording.size());
   const double usual_s = std::min(recording.sample_interval_s(), recording.duration_s() / (size - 1.0));
@@ -114,7 +115,7 @@ double Rest::power_at(double frequency_Hz) const {
   return sums.power();
 }
 
-/// In steps of a quarter of a resolution, then the vertex of a parabola through the best three.
+/// Searches in steps of a quarter of a resolution, then takes the vertex of a parabola through the best three.
 double Rest::refined(double frequency_Hz) const {
   constexpr int kSteps = 2;
   const double step_Hz = 0.25 * resolution_Hz();

@@ -24,7 +24,7 @@ struct EvenRest {
   double step_s = 0.0;
 };
 
-/// What a fit leaves of the samples of its cycles. Residuals of 0 count as absent samples.
+/// Holds what a fit leaves of the samples of its cycles. Residuals of 0 count as absent samples.
 class Rest {
  public:
   /// `residuals`: one a sample of the recording, which must outlive this.
@@ -40,11 +40,12 @@ class Rest {
   /// The frequency of the largest power within half a resolution.
   [[nodiscard]] double refined(double frequency_Hz) const;
 
-  /// For the Fourier transform. On an uneven clock each sample is moved to the nearest step of an even one, by half a
-  /// step at most: exact enough to find a line, not to fit it. The values of an even clock are not copied.
+  /// Returns the residuals for the Fourier transform. On an uneven clock each sample is moved to the nearest step of an
+  /// even one, by half a step at most: exact enough to find a line, not to fit it. The values of an even clock are not
+  /// copied.
   [[nodiscard]] EvenRest on_even_clock() const;
 
-  /// With the fitted interference added back.
+  /// Adds the fitted interference back.
   void add_interference(const BlockFit& fit);
 
  private:

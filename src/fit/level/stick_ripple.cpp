@@ -20,14 +20,14 @@ constexpr double kSlowest = 2.5;              // a period: what is slower bends 
 constexpr double kFastest = 30.0;
 constexpr double kLeastShare = 1e-3;  // of the speed: changes k by no more than that
 
-/// What is left of a stick, in means over blocks of samples.
+/// Holds what the fit leaves of a stick, in means over blocks of samples.
 struct Stick {
   std::size_t first = 0;  ///< block of the recording
   Eigen::VectorXd time_s, force;
   [[nodiscard]] std::size_t end() const { return first + static_cast<std::size_t>(force.size()); }
 };
 
-/// Without the straight line that fits best.
+/// Returns the columns without the straight line that fits each best.
 template <class Columns>
 Columns without_line(const Eigen::VectorXd& time_s, Columns columns) {
   const Eigen::VectorXd since_s = time_s.array() - time_s.mean();
@@ -91,7 +91,7 @@ class Sticks {
 
   /// Blocks begin at multiples of their length, so that all sticks lie on one grid.
   void add(std::size_t begin, std::size_t end) {
-    // Beside a slip onset and end are known to about a sample, and an average still shows the slip.
+    // Next to a slip, onset and end are known to about a sample, and an average still shows the slip.
     const auto margin = 2 + static_cast<std::size_t>(0.5 * fit_.sensor().average_s / recording_.sample_interval_s());
     const std::size_t first = (begin + margin + block_ - 1) / block_;
     const std::size_t last = end < margin ? 0 : (end - margin) / block_;
@@ -144,7 +144,7 @@ class Sticks {
     [[nodiscard]] Eigen::Vector2d solution() const { return square.ldlt().solve(cross); }
   };
 
-  /// Of cosine and sine over blocks [from, to) of each stick, as shares of its length.
+  /// Returns the normal equations of cosine and sine over blocks [from, to) of each stick, as shares of its length.
   [[nodiscard]] Normal normal(double frequency_Hz, double from, double to) const {
     Normal sum;
     for (const Stick& stick : sticks_) {
@@ -171,7 +171,7 @@ class Sticks {
     return (early - late).norm() < 0.5 * (early + late).norm();
   }
 
-  /// Each stick with a mean of its own and all with one slope, without and with the line.
+  /// Fits a line at this frequency: each stick has a mean of its own and all have one slope, without and with the line.
   [[nodiscard]] StickRipple line_at(double frequency_Hz) const {
     Eigen::Matrix3d square = Eigen::Matrix3d::Zero();
     Eigen::Vector3d cross = Eigen::Vector3d::Zero();

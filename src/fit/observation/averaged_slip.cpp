@@ -21,7 +21,7 @@ AveragedSlip::AveragedSlip(const model::Slip& slip, const model::StickLine& afte
   if (transmitted) transmit(slip, after);
 }
 
-/// Of the spring. z'' + 2 zeta z' + z = 0 gives the integral of z: 1 + 2 zeta (z0 - z) - z'.
+/// Returns the slide of the spring's force. z'' + 2 zeta z' + z = 0 gives the integral of z: 1 + 2 zeta (z0 - z) - z'.
 AveragedSlip::Slide AveragedSlip::slide_of(const model::Slip& slip) {
   const double z0 = slip.z0;
   const double zeta = slip.zeta;

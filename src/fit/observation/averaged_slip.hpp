@@ -12,10 +12,10 @@ class AveragedSlip {
   /// `transmitted`: view.
   AveragedSlip(const model::Slip& slip, const model::StickLine& after, double average_tau, bool transmitted);
 
-  /// At any tau.
+  /// Returns the force that the instrument shows, at any tau.
   [[nodiscard]] model::WavePoint at(double tau) const;
 
-  /// The same from the slip's phasors where the average begins and ends.
+  /// Returns the same force from the slip's phasors where the average begins and ends.
   [[nodiscard]] model::WavePoint at(double tau, const model::Phasor& begin, const model::Phasor& end) const {
     return between(force_at(tau - half_, begin), force_at(tau + half_, end));
   }

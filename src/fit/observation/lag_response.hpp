@@ -15,8 +15,8 @@ struct MotionPoint {
   std::array<double, 2> d_law{};
 };
 
-/// What a sensor shows, with the derivative with respect to ln w_n at fixed tau (its times are fixed in seconds) and
-/// with respect to the logarithm of the time over which it averages.
+/// Holds the force that a sensor shows, with the derivative with respect to ln w_n at fixed tau (its times are fixed in
+/// seconds) and with respect to the logarithm of the time over which it averages.
 struct ShownPoint : MotionPoint {
   double d_log_omega = 0.0;
   double d_log_average = 0.0;
@@ -38,7 +38,7 @@ class LagResponse {
   static constexpr std::size_t kColumns = 1 + model::kScaledParameters;
   using Column = std::array<double, kColumns>;  ///< as model::SlipPart::terms
 
-  /// What the sensor shows.
+  /// Holds the force that the sensor shows, with its derivatives.
   struct Response {
     Column shown{};
     double d_log_omega = 0.0;

@@ -63,8 +63,8 @@ SensedSlip::Jet SensedSlip::lagged_at(const Jet& tau) const {
   return end_.z + since - 1.0 / kappa_ + (lag_end_ - end_.z + 1.0 / kappa_) * exp(-kappa_ * since);
 }
 
-/// As the sensor shows it before it is averaged, and (but for a constant) the integral of that: y' = kappa (z - y)
-/// makes the integral of y that of z less y / kappa.
+/// Returns the force as the sensor shows it before it is averaged, with its slope and (but for a constant) its
+/// integral: y' = kappa (z - y) makes the integral of y that of z less y / kappa.
 SensedSlip::Force SensedSlip::shown_at(const Jet& tau) const {
   Force y = force_at(tau);
   if (sensor_.lag_tau > 0.0) {

@@ -20,7 +20,8 @@ class SensedSlip {
  public:
   SensedSlip(const Sensor& sensor, const model::Slip& slip);
 
-  /// At any tau; the stick before the slip counts as long enough for the slip before it to be forgotten.
+  /// Returns the force that the sensor shows at any tau. The stick before the slip counts as long enough for the slip
+  /// before it to be forgotten.
   [[nodiscard]] model::WavePoint at(double tau) const;
 
  private:

@@ -29,7 +29,7 @@ class ShownMotion {
   }
 
  private:
-  /// Without the average.
+  /// Returns the force that the sensor shows without the average.
   [[nodiscard]] ShownPoint instant_at(double tau) const {
     const MotionPoint motion = motion_.at(tau);
     return lag_ ? lag_->at(motion, tau) : ShownPoint{motion};

@@ -20,28 +20,28 @@ struct Parameters {
   std::vector<Local> cycles;
 };
 
-/// A recording in a fit: cycles as blocks beside the shared parameters, a bundle adjustment. The current solution of
-/// it.
+/// Holds a recording in a fit and its current solution. The cycles are blocks next to the shared parameters, as in a
+/// bundle adjustment.
 class BlockFit {
  public:
   BlockFit(std::shared_ptr<const CycleSet> set, const Scales& scales);
-  /// All parameters 0. Empty where there are too few cycles to fit (CycleSet::create).
+  /// Creates a fit with all parameters 0. It is empty where there are too few cycles to fit (CycleSet::create).
   static std::optional<BlockFit> create(std::vector<CycleData> cycles, std::vector<double> reference_s,
                                         const Scales& scales, LevelModel level);
 
-  /// The same cycles above another level, all parameters 0.
+  /// Returns a fit of the same cycles above another level, with all parameters 0.
   [[nodiscard]] BlockFit with_level(LevelModel level, const Scales& scales) const;
 
   /// Rig and contact as in `start`; a rise after slips only where that has one.
   void start_at(const Coordinates& start);
 
-  /// The same cycles at the same parameters, on other scales. A time of the sensor that is free begins anew where these
-  /// have another one.
+  /// Returns a fit of the same cycles at the same parameters, on other scales. A time of the sensor that is free begins
+  /// anew where these have another one.
   [[nodiscard]] BlockFit with_scales(const Scales& scales) const;
 
   /// Weighted sum of squares of one cycle's residuals at the solution; the part inside stick bins is not in it.
   [[nodiscard]] double cycle_sum_of_squares(std::size_t cycle) const;
-  /// The same of every cycle, on all processors where they are large.
+  /// Returns this sum for every cycle, on all processors where there are many samples.
   [[nodiscard]] std::vector<double> sums_of_squares() const;
 
   /// Rows of residuals of all cycles together.
@@ -55,14 +55,16 @@ class BlockFit {
   [[nodiscard]] const LevelModel& level() const { return set_->level(); }
   [[nodiscard]] double reference_s(std::size_t cycle) const { return set_->reference_s()[cycle]; }
   [[nodiscard]] const double* level_data() const { return parameters.level.data(); }
-  /// Of the cosine and sine of each line, over Scales::force; where there are lines.
+  /// Points to the coefficients of the cosine and sine of each line, over Scales::force; it is valid where there are
+  /// lines.
   [[nodiscard]] const double* wave_data() const { return level_data() + model(0).first_wave(); }
   [[nodiscard]] CycleValues values(std::size_t cycle) const;
   [[nodiscard]] const Columns& columns() const { return *columns_; }
   [[nodiscard]] bool solves_for(Coordinate coordinate) const { return columns_->has(coordinate); }
-  /// At the solution.
+  /// Returns the times of the sensor at the solution.
   [[nodiscard]] SensorTimes sensor() const { return sensor_of(scales_, parameters.values); }
-  /// By a law in closed form, at a solution; under friction that depends on the speed as if it did not.
+  /// Returns the state of a cycle by a law in closed form, at a solution; friction that depends on the speed counts as
+  /// if it did not.
   [[nodiscard]] CycleState state(std::size_t cycle) const;
 
   Parameters parameters;
@@ -80,12 +82,12 @@ double resting_share(const BlockFit& fit);
 /// Median time that a slip lasts.
 double median_slip_s(const BlockFit& fit);
 
-/// Median time from the end of one slip to the onset of the next.
+/// Returns the median time from the end of one slip to the onset of the next.
 double median_stick_s(const BlockFit& fit);
-/// From onset to onset; a cycle that could not be fitted makes one interval long.
+/// Returns the median time from onset to onset; a cycle that could not be fitted makes one interval long.
 double median_period_s(const BlockFit& fit);
 
-/// What the recordings of a sweep have in common beside the contact and the rig; otherwise each has its own.
+/// States what the recordings of a sweep share besides the contact and the rig; otherwise each has its own.
 struct Sharing {
   bool level = false;       ///< F_k(0+): no sensor zero or run-to-run friction between them
   bool difference = false;  ///< F_s - F_k(0+): static friction does not depend on the speed (no ageing)
@@ -93,7 +95,7 @@ struct Sharing {
   friend bool operator==(const Sharing&, const Sharing&) = default;
 };
 
-/// What makes one problem of the recordings of a sweep. Steady ones enter where the level is shared.
+/// Holds what makes one problem of the recordings of a sweep. Steady ones enter where the level is shared.
 struct SweepTerms {
   Sharing sharing{};
   std::span<const SteadyRun> steady{};

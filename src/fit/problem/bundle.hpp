@@ -27,16 +27,16 @@ class Bundle {
     double sum = 0.0;  ///< of squares; where SolveOptions::robust, cycles far worse than the others counted linearly
     Elimination normal;
   };
-  /// At the parameters of the recordings. `damping`: of the steps of the cycles' own from there (Elimination). Empty:
-  /// outside the model.
+  /// Returns the point at the parameters of the recordings; it is empty outside the model. `damping` applies to the
+  /// steps of the cycles' own parameters from there (Elimination).
   [[nodiscard]] std::optional<Point> start(double damping) const;
-  /// As start, elsewhere.
+  /// Does the same as `start` at other values.
   [[nodiscard]] std::optional<Point> at(Values values, double damping) const;
-  /// After a step of the common parameters; the cycles' own follow, and take `share` of the step that they have to gain
-  /// by where the common ones stand still.
+  /// Returns the values after a step of the common parameters. The cycles' own follow, and they take `share` of the
+  /// step by which they can still gain where the common ones are fixed.
   [[nodiscard]] Values moved(const Point& from, const Eigen::VectorXd& step, double share) const;
-  /// Whether the slips of all cycles have solutions there. Not told, and so false, where they are integrated: that
-  /// takes as long as the sum of squares.
+  /// Returns whether the slips of all cycles have solutions there. Where slips are integrated this is not checked, and
+  /// so false: it would take as long as the sum of squares.
   [[nodiscard]] bool is_inside(const Values& values) const;
   /// Writes values to the recordings, which have the problem's order.
   void put(const Values& values, std::span<BlockFit> recordings) const;
@@ -47,7 +47,8 @@ class Bundle {
 
  private:
   [[nodiscard]] bool add(std::size_t recording, std::size_t first_cycle, Point& point) const;
-  /// Of a cycle with [J r] = `lines`: [J r]' [J r] as Elimination takes it, and its part of the sum.
+  /// Writes [J r]' [J r] of a cycle with [J r] = `lines`, as Elimination takes it, and returns the cycle's part of the
+  /// sum.
   [[nodiscard]] double put_products(const Eigen::MatrixXd& lines, Eigen::Ref<RowMajor> normal) const;
   [[nodiscard]] bool add_steady(Point& point) const;
 

@@ -17,18 +17,19 @@ class CommonColumns {
   explicit CommonColumns(const Problem& problem);
 
   [[nodiscard]] Eigen::Index size() const { return size_; }
-  /// Of a coordinate that the fit of this recording solves for; empty where it does not.
+  /// Returns the column of a coordinate that the fit of this recording solves for; it is empty where it does not.
   [[nodiscard]] std::optional<Eigen::Index> find(std::size_t recording, Coordinate coordinate) const {
     return coordinates_[recording][static_cast<std::size_t>(coordinate)];
   }
-  /// Of the level's constant, and of the first of its other functions.
+  /// Returns the column of the level's constant; `drift` returns that of the first of the level's other functions.
   [[nodiscard]] Eigen::Index level(std::size_t recording) const { return levels_[recording]; }
   [[nodiscard]] Eigen::Index drift(std::size_t recording) const { return drifts_[recording]; }
-  /// Of the Jacobian of a recording's cycles, in its order.
+  /// Returns the column of each common parameter of a recording's cycles, in the order of their Jacobian.
   [[nodiscard]] const std::vector<Eigen::Index>& of(std::size_t recording) const { return of_[recording]; }
-  /// Of the row of a steady recording: the coordinates of the first recording and the level that all share.
+  /// Returns the columns of the row of a steady recording: the coordinates of the first recording and the level that
+  /// all share.
   [[nodiscard]] const std::vector<Eigen::Index>& of_steady() const { return of_steady_; }
-  /// Of the coordinates that stand still, in ascending order.
+  /// Returns the columns of the coordinates that are fixed, in ascending order.
   [[nodiscard]] std::vector<Eigen::Index> held(const Held& held) const;
   /// Calls f(column, value) for each common parameter that a recording has. `parameters`: its own, or a copy.
   template <class P, class F>

@@ -38,9 +38,9 @@ class Elimination {
   /// Some own parameter has no influence that others do not have.
   [[nodiscard]] bool is_singular() const { return is_singular_; }
 
-  /// Own parameters of every cycle, one cycle after the other, that go with steps of the common ones: their steps to
-  /// where the sums of squares are least, of which they take a `share` where the common ones stand still. A column for
-  /// each of `sides`.
+  /// Returns the steps of the own parameters of every cycle, one cycle after the other, for steps of the common ones.
+  /// They lead to where the sums of squares are least; of the step that remains where the common ones are fixed, they
+  /// take a `share`. The result has a column for each of `sides`.
   [[nodiscard]] RowMajor own_steps(const Eigen::MatrixXd& common_steps, double share) const;
 
  private:

@@ -16,7 +16,8 @@ bool evaluate_lines(const CycleModel& model, const CycleValues& values, Eigen::M
 /// [J r]' [J r] as Elimination takes it: the upper triangle; the rest is not set.
 RowMajor products_of(const Eigen::Ref<const Eigen::MatrixXd>& lines);
 void products_of(const Eigen::Ref<const Eigen::MatrixXd>& lines, Eigen::Ref<RowMajor> products);
-/// Of a steady recording: the coordinates of `columns`, the level that all recordings share, the residual.
+/// Returns the products of a steady recording: the coordinates of `columns`, the level that all recordings share, the
+/// residual.
 RowMajor products_of(const SteadyResidual& steady, const Columns& columns);
 
 }  // namespace slipfit::fit

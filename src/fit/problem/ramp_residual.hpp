@@ -18,8 +18,8 @@ struct RampResidual {
 RampResidual ramp_residual(const BlockFit& fit, std::size_t first, const Coordinates& values, const double* local_first,
                            const double* local_second);
 
-/// In units of the noise: small enough to hold the ramp together (a ramp's mean is known to noise / sqrt(samples)),
-/// large enough to keep the normal equations well conditioned.
+/// The tolerance counts in units of the noise. It is small enough to hold the ramp together (a ramp's mean is known to
+/// noise / sqrt(samples)) and large enough to keep the normal equations well conditioned.
 inline constexpr double kRampTolerance = 0.01;
 
 }  // namespace slipfit::fit

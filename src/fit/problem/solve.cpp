@@ -19,7 +19,7 @@ namespace {
 using Eigen::Index;
 
 /// A bundle as Ceres sees it. Its parameters are the common ones, in units of what moves the residuals by 1 at the
-/// start while all others stand still, and one whose steps are the share that the cycles' own take of the steps that
+/// start while all others are fixed, and one whose steps are the share that the cycles' own take of the steps that
 /// they have to gain by, in units of what moves the residuals by 1 from where it is. Its residuals are one a common
 /// parameter, one that no parameter changes, and one for what the own parameters have to gain. In these units Ceres
 /// damps steps as Levenberg and Marquardt do in the problem of all parameters.
@@ -40,7 +40,7 @@ class BundleCost : public ceres::CostFunction, public ceres::IterationCallback {
     mutable_parameter_block_sizes()->push_back(static_cast<int>(bundle.common() + 1));
   }
 
-  /// Of the common parameters.
+  /// Returns the units of the common parameters.
   [[nodiscard]] const Eigen::VectorXd& units() const { return units_; }
   /// Parameters at `start`.
   [[nodiscard]] const Eigen::VectorXd& first() const { return base_.at; }
@@ -93,7 +93,8 @@ class BundleCost : public ceres::CostFunction, public ceres::IterationCallback {
     Eigen::VectorXd at;                          ///< in Ceres' units
   };
 
-  /// Of a parameter, from the square of what a step of 1 moves the residuals by; 1 where it moves none.
+  /// Returns the unit of a parameter from the square of what a step of 1 moves the residuals by; it is 1 where that
+  /// moves none.
   static double unit_of(double square) { return square > 0.0 ? 1.0 / std::sqrt(square) : 1.0; }
 
   [[nodiscard]] bool is_latest_better() const { return latest_.point && latest_.point->sum < base_.point->sum; }
@@ -101,8 +102,8 @@ class BundleCost : public ceres::CostFunction, public ceres::IterationCallback {
   /// Residuals after a step from base_ by its derivatives.
   [[nodiscard]] Eigen::VectorXd foreseen(const Eigen::VectorXd& step) const { return residuals_ + jacobian_ * step; }
 
-  /// Whether Ceres will end with a step from base_. Not after steps that were in vain: where derivatives mislead, small
-  /// steps only look as if there were nothing to gain.
+  /// Returns whether Ceres will end with a step from base_. It will not after steps that were in vain: where
+  /// derivatives mislead, small steps only look as if there were nothing to gain.
   [[nodiscard]] bool is_last(const Eigen::VectorXd& step) const {
     constexpr double kSurely = 0.9;
     if (jacobian_.size() == 0 || radius_ < first_radius_) return false;
@@ -142,7 +143,7 @@ class BundleCost : public ceres::CostFunction, public ceres::IterationCallback {
 /// cannot may creep along a valley: not for longer than the rest of the program takes.
 int most_iterations(const Problem& problem, const SolveOptions& options, std::size_t residuals) {
   constexpr double kMostEvaluations = 6e5;  // of a sample under Coulomb friction: 12 of 500 cycles of 72 samples
-  constexpr double kCycle = 24.0;           // evaluations that a cycle takes as long as beside those of its samples
+  constexpr double kCycle = 24.0;           // evaluations that a cycle costs besides those of its samples
   constexpr double kTerm = 2.0;             // by which weakening and an average each make an evaluation longer
   constexpr double kFewest = 10.0;
   if (problem.recordings.size() > 1) return options.max_iterations;

@@ -11,7 +11,7 @@ namespace slipfit::fit {
 /// eliminated first (Elimination). Leaves the solution in all of them. Returns the sum of squared residuals, infinity
 /// where the start is outside the model.
 double solve_together(std::span<BlockFit> recordings, const SweepTerms& sweep, const SolveOptions& options);
-/// Of one recording by itself.
+/// Solves for one recording by itself, as solve_together does.
 double solve(BlockFit& fit, const SolveOptions& options);
 
 }  // namespace slipfit::fit

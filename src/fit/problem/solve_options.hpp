@@ -18,14 +18,14 @@ struct SolveOptions {
   bool damped = false;  ///< zeta stays at 0 or above, in a search that a negative one would lead astray
 };
 
-/// What a cycle far worse than the others counts (SolveOptions::robust).
+/// Holds the weight of a cycle that is far worse than the others (SolveOptions::robust).
 struct HuberWeight {
   double factor = 1.0;  ///< of its squares in the normal equations
   double sum = 0.0;     ///< in place of its sum of squares
 };
 
-/// `norm`: root of the sum of squares of a cycle's residuals, of which there are so many; beyond a bound it counts
-/// linearly.
+/// Returns the weight of a cycle. `norm` is the root of the sum of squares of its `residuals` residuals; above a bound
+/// it counts linearly.
 inline HuberWeight huber_weight(double norm, std::size_t residuals) {
   const double bound = 3.0 * std::sqrt(static_cast<double>(residuals));
   if (!(norm > bound)) return {1.0, norm * norm};

@@ -19,7 +19,7 @@ double spread_of_levels(const DampedFit& fit) {
   return fit.blocks.scales().force * std::sqrt(square / std::max(1.0, static_cast<double>(fit.blocks.size()) - 1.0));
 }
 
-/// From the end of a slip to the next onset, roughly.
+/// Returns the approximate time from the end of a slip to the next onset.
 double typical_stick_s(const BlockFit& blocks) {
   const double period_s = median_period_s(blocks);
   const CycleState state = blocks.state(blocks.size() / 2);
@@ -46,7 +46,7 @@ SteadyRun steady_run(const Recording& recording, double load) {
   return run;
 }
 
-/// Empty where it is not stated for all.
+/// Returns the mean normal force of the recordings; it is empty where one of them does not state it.
 std::optional<double> mean_load_N(std::span<const SweepRecording> recordings) {
   std::vector<double> loads;
   for (const SweepRecording& sweep : recordings) {

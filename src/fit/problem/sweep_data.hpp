@@ -25,7 +25,7 @@ struct SweepData {
   std::optional<FittedAverage> average{};        ///< OwnFits; the fit of the sweep begins with it
   std::optional<double> rounding_s2{};           ///< OwnFits
   std::optional<StatedMass> mass{};              ///< OwnFits
-  /// Of slips and ring-downs together, at which w_n and zeta are held: what follows has its errors.
+  /// Holds the motion of slips and ring-downs together, at which w_n and zeta are held: what follows has its errors.
   std::optional<FreeMotion> motion{};
   std::vector<SteadyRun> steady;
   std::vector<std::optional<std::size_t>> steady_of;  ///< index into `steady` of each recording
@@ -41,11 +41,12 @@ struct SweepData {
 SweepData prepare_sweep(std::span<const SweepRecording> recordings, const FitOptions& options,
                         const std::optional<FittedAverage>& known = {});
 
-/// Of a recording on its own: F_s - cV above F_k, and the force level F_k(0+), means over its cycles.
+/// Returns F_s - cV above F_k of a recording on its own, as a mean over its cycles; `level_of` returns that of the
+/// force level F_k(0+).
 double mean_onset_force(const DampedFit& fit);
 double level_of(const DampedFit& fit);
 
-/// How a recording enters the fit of the sweep.
+/// Returns the scales with which a recording enters the fit of the sweep.
 Scales scales_in_sweep(const SweepData& data, std::size_t recording, FrictionLaw law);
 
 }  // namespace slipfit::fit
