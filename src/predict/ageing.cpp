@@ -16,7 +16,7 @@ namespace {
 /// The row of ModelEstimate's values that holds ln (F_s - F_k(0+)).
 constexpr Eigen::Index kDifference = 3;
 
-/// That of alpha.
+/// Alpha is in this row of them.
 constexpr Eigen::Index kRate = 5;
 
 /// The same bodies, with static friction that does not age.
@@ -68,7 +68,7 @@ Jet end_speed(const ModelEstimate& model, double difference_N, double speed_m_pe
   return speed;
 }
 
-/// Where ends of stick-slip are looked for, in units of the speed of a slip.
+/// Ends of stick-slip are sought between these limits, in units of the speed of a slip.
 constexpr double kSlowestEnd = 1e-6;
 constexpr double kFastestEnd = 300.0;
 
@@ -76,8 +76,8 @@ double speed_unit(const ModelEstimate& model) {
   return model.natural_frequency_rad_per_s * model.friction_difference_N / model.stiffness_N_per_m;
 }
 
-/// The ends of stick-slip of the models that the covariance of one allows. A quantile asks each model only at speeds
-/// that may tell on which side of it its end lies, few of them more than twice.
+/// Finds the ends of stick-slip of the models that the covariance of one allows. A quantile asks each model only at
+/// speeds that may decide on which side of it its end lies, few of them more than twice.
 class EndsOfDraws {
  public:
   /// `near_m_per_s`: the end of `model`, where the search begins; 0 or infinite where there is none.

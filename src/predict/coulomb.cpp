@@ -18,7 +18,7 @@ struct Body {
   Friction friction;
 };
 
-/// With F_k = 0: only the difference matters here.
+/// Returns the body with F_k = 0: only the difference matters here.
 Body body_of(const ModelEstimate& model) {
   auto slider = Slider::create(model.stiffness_N_per_m, model.natural_frequency_rad_per_s, model.damping_ratio);
   auto friction = Friction::create(model.friction_difference_N, 0.0);

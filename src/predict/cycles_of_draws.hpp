@@ -19,7 +19,7 @@ class CyclesOfDraws {
 
   CyclesOfDraws(const ModelEstimate& model, double speed_m_per_s);
 
-  /// Of the models, that stick.
+  /// Returns the share of the models that stick.
   [[nodiscard]] double share() const { return share_; }
   /// Gives the interval over those that stick, `value_of` a cycle being what is estimated.
   template <class ValueOf>

@@ -19,7 +19,8 @@ namespace slipfit::predict {
 /// cut-off of ageing, A and ln l of reloading, exponent of k).
 using Jet = ceres::Jet<double, static_cast<int>(kModelValues)>;
 
-/// Of a model whose values stand first among what a number of this kind has derivatives with respect to.
+/// Holds the parameters of a model whose values are the first among what a number of this kind has derivatives with
+/// respect to.
 template <class AnyJet>
 struct ModelJetsOf {
   AnyJet stiffness_N_per_m, omega_rad_per_s, damping_ratio, difference_N, slope_N_s_per_m, alpha_s_per_m, ageing_N,
@@ -58,7 +59,8 @@ ModelEstimate at_speed(const ModelEstimate& model, double speed_m_per_s);
 
 inline constexpr int kExponent = static_cast<int>(place_in_model(ParameterId::StiffnessExponent));
 
-/// From derivatives with respect to k and w_n of a speed to those of the model's parameters, which stand first in y.
+/// Converts derivatives with respect to k and w_n of a speed to those of the model's parameters, which are the first in
+/// y.
 template <class AnyJet>
 AnyJet from_speed(AnyJet y, const ModelEstimate& model, double speed_m_per_s) {
   if (!model.stiffness_trend) return y;
@@ -75,7 +77,7 @@ ModelJetsOf<AnyJet> jets_at(const ModelEstimate& model, double speed_m_per_s) {
   return jets;
 }
 
-/// From derivatives to standard errors and 95 % intervals.
+/// Computes standard errors and 95 % intervals from derivatives.
 class Propagation {
  public:
   explicit Propagation(const ModelEstimate& model);
@@ -95,13 +97,13 @@ class Propagation {
   double quantile_ = 0.0;
 };
 
-/// Why there is no interval far beyond the speeds of such a sweep.
+/// States why there is no interval far outside the speeds of such a sweep.
 inline constexpr const char* kUntrended =
     "two recordings, or speeds within a factor of 2, cannot tell whether static friction ages: nothing is known more "
     "than a factor of 1.5 beyond them";
 
-/// The model with what its recordings do not determine at a speed beyond theirs; empty where a sweep determines nothing
-/// there.
+/// Returns the model with what its recordings do not determine at a speed outside theirs; empty where a sweep
+/// determines nothing there.
 std::optional<ModelEstimate> beyond(const ModelEstimate& model, double speed_m_per_s);
 
 /// Where stick-slip from rest ends; at zeta = 0 it has no end, from zeta = 1 on there is none. The interval of the

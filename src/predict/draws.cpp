@@ -48,7 +48,7 @@ bool is_model(const ModelEstimate& model) {
   return std::ranges::all_of(values, [](double value) { return std::isfinite(value); });
 }
 
-/// Empty where it is no model: outside of the ranges, or beyond what a double can be.
+/// Returns the moved model; empty where it is no model: outside of the ranges, or larger than a double can be.
 std::optional<ModelEstimate> moved(const ModelEstimate& model, const VectorXd& step) {
   const auto move = [&](ParameterId id) { return step(static_cast<Index>(place_in_model(id))); };
   ModelEstimate other = model;

@@ -41,7 +41,7 @@ class Cycle {
     z.v += p.d_tau * tau.v;
     return CycleJet(0.0, kLevel) + slip_.force_unit_N * z;
   }
-  /// What the population of cycles says of this one's onset force.
+  /// Returns the departure of this cycle's onset force from the mean of the population of cycles.
   [[nodiscard]] CycleJet onset_departure() const { return onset_force_ - mean_onset_force_; }
 
  private:
@@ -50,7 +50,7 @@ class Cycle {
   static Jets jets_of(const ModelEstimate& model, double speed_m_per_s) {
     Jets p = jets_at<CycleJet>(model, speed_m_per_s);
     if (!model.ageing) return p;
-    // After the sticks of this speed; that these follow F_s - F_k is a small part of what they tell of the rate.
+    // After the sticks of this speed; that these follow F_s - F_k is a small part of what they show of the rate.
     const double aged_N = aged_difference_N(at_speed(model, speed_m_per_s), speed_m_per_s).value_or(0.0);
     const auto [rate_N, reference_s, cutoff_s] = *model.ageing;
     const double log_stick = (aged_N - model.friction_difference_N) / rate_N;
@@ -77,7 +77,7 @@ class Cycle {
 
 /// Sum over the samples of one cycle, the first of the slip at `phase` of a step; half a stick on either side.
 CycleMatrix normal_matrix(const Cycle& cycle, double phase, double tau_step, const Disturbance& disturbance) {
-  // Among more samples than these one stands for several: the sum is then an integral.
+  // Among more samples than these one represents several: the sum is then an integral.
   constexpr double kMostSamples = 1000.0;
   CycleMatrix sum = CycleMatrix::Zero();
   const auto add = [&sum](const CycleJet& y, double weight) { sum += weight * y.v * y.v.transpose(); };
@@ -97,7 +97,7 @@ CycleMatrix normal_matrix(const Cycle& cycle, double phase, double tau_step, con
   return sum;
 }
 
-/// What remains of the first `kept` rows when the others are free.
+/// Returns what remains of the first `kept` rows when the others are free.
 Eigen::MatrixXd marginal(const Eigen::MatrixXd& matrix, Eigen::Index kept) {
   const Eigen::Index freed = matrix.rows() - kept;
   const Eigen::MatrixXd cross = matrix.topRightCorner(kept, freed);
@@ -110,7 +110,7 @@ Eigen::MatrixXd marginal(const Eigen::MatrixXd& matrix, Eigen::Index kept) {
 std::optional<Information> information_of(const ModelEstimate& model, const RecordingPlan& recording,
                                           const Disturbance& disturbance) {
   Information information;
-  // Slips of different size tell zeta from the force level: half of the cycles on either side of the mean.
+  // Slips of different size distinguish zeta from the force level: half of the cycles on either side of the mean.
   for (const double side : {-1.0, 1.0}) {
     const Cycle cycle(model, recording.speed_m_per_s, side * disturbance.static_friction_sd_N);
     if (!cycle.sticks()) return std::nullopt;

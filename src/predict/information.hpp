@@ -29,7 +29,7 @@ struct Information {
 std::optional<Information> information_of(const ModelEstimate& model, const RecordingPlan& recording,
                                           const Disturbance& disturbance);
 
-/// Of a recording whose level says nothing about that of others.
+/// Returns the information of a recording whose level says nothing about that of others.
 PlanMatrix without_level(const PlanMatrix& information);
 
 /// (covariance^-1 + information)^-1, also where the one has zeros (parameters held) or the other is singular.

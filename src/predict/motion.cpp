@@ -27,7 +27,7 @@ MotionJets motion_by_law(const ModelEstimate& model, double speed_m_per_s, doubl
   return coulomb_motion_at(model, speed_m_per_s);
 }
 
-/// Of a positive quantity, whose interval is symmetric in its logarithm.
+/// Scales the interval of a positive quantity, which is symmetric in its logarithm.
 void scale_log_interval(Estimate& estimate, double factor) {
   if (!estimate.standard_error || !estimate.ci95) return;
   *estimate.standard_error *= factor;
@@ -35,7 +35,8 @@ void scale_log_interval(Estimate& estimate, double factor) {
   estimate.ci95->high = *estimate.value * std::pow(estimate.ci95->high / *estimate.value, factor);
 }
 
-/// Where all that is told is that it lies above a speed: no farther beyond the recordings than any law holds.
+/// Returns the critical point if all that is known is that it lies above a speed: no farther outside the recordings
+/// than any law is valid.
 CriticalPoint bound_of(const ModelEstimate& model, double least_m_per_s) {
   const std::optional<ModelEstimate> wider = beyond(model, least_m_per_s);
   if (!wider) return CriticalPoint::unknown(kUntrended);

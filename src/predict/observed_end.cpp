@@ -11,7 +11,7 @@
 namespace slipfit {
 namespace {
 
-/// By the runs alone. `why`: the fit does not tell.
+/// Estimates the end by the runs alone. `why` says why the fit does not determine it.
 Estimate by_runs(const ObservedEnd& observed, const std::string& why) {
   const double sticks = *observed.sticks_m_per_s;
   if (!observed.slides_m_per_s) {
@@ -25,7 +25,7 @@ Estimate by_runs(const ObservedEnd& observed, const std::string& why) {
                       why)};
 }
 
-/// Without an upper end an interval is told in words.
+/// Puts an interval without an upper end into words.
 Estimate told(const Estimate& by_fit) {
   if (by_fit.value || !by_fit.ci95) return by_fit;
   return unknown(fmt::format("above {:.4g} m/s; no upper bound: {}", by_fit.ci95->low, by_fit.note));

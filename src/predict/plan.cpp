@@ -135,7 +135,7 @@ class Planner {
     return basis_.levels == LevelSharing::Shared ? information : predict::without_level(information);
   }
 
-  /// What the recordings of the fit tell, with another disturbance or clock.
+  /// Returns the information of the recordings of the fit, with another disturbance or clock.
   [[nodiscard]] PlanMatrix measured(const Disturbance& disturbance, double clock) const {
     PlanMatrix sum = PlanMatrix::Zero();
     for (RecordingPlan recording : basis_.recordings) {

@@ -118,7 +118,8 @@ class Predictor {
   }
 
   /// Near its end the cycle changes with the square root of the distance: the delta method fails there. The margin is
-  /// nearly linear in zeta and ln lambda, so it tells also where zeta, and with it the critical speed, is unknown.
+  /// nearly linear in zeta and ln lambda, so it is informative also where zeta, and with it the critical speed, is
+  /// unknown.
   [[nodiscard]] bool is_doubtful(const predict::MotionJets& motion) const {
     if (!model_.has_covariance) return false;
     const std::optional<Interval>& critical = critical_.speed_m_per_s.ci95;

@@ -26,7 +26,7 @@ Jet extreme(const SlipJets& slip, const model::VelocityTrack& track, double befo
   return slip.force_unit_N * slip.jet(point.z, point);
 }
 
-/// Empty where the slip does not stick, or ends with the force above that of the next slip's start.
+/// Returns the cycle; empty where the slip does not stick, or ends with the force above that of the next slip's start.
 std::optional<CycleJets> cycle_of(const SlipJets& slip, const model::VelocityTrack& track, const Jet& omega,
                                   double speed_m_per_s) {
   if (!track.resticks()) return std::nullopt;

@@ -54,7 +54,7 @@ VectorXd variances_of(const SweepSolution& solution) {
   return variances;
 }
 
-/// Of the residuals of a line with two parameters.
+/// Returns whether the residuals of a line with two parameters are within the recordings' own errors.
 bool within_own_errors(const VectorXd& residuals, const VectorXd& variances) {
   if (residuals.size() < 3) return true;
   const boost::math::chi_squared_distribution<double> by_chance(static_cast<double>(residuals.size()) - 2.0);
@@ -116,7 +116,8 @@ class LinesOverSticks {
   [[nodiscard]] Index count() const { return sticks_.size(); }
 
  private:
-  /// Of any line over the logarithms, by the recordings' own errors: the instrument's is not the nearest one.
+  /// Returns the least chi2 of any line over the logarithms, by the recordings' own errors. The line through the
+  /// instrument is not the one with the least chi2.
   [[nodiscard]] double least_chi2(const VectorXd& logs) const {
     const VectorXd weights = variances_.cwiseInverse();
     const double total = weights.sum();

@@ -9,9 +9,9 @@
 
 namespace slipfit::fit {
 
-/// What the recordings of a sweep tell of the cut-off t_c of ageing, in Units::stick_s. Beforehand t_c lies between 0
-/// and the longest stick, where every root of the share t_c / (t_c + Units::stick_s) is as likely; each then weighs as
-/// the line with it leaves the recordings.
+/// Holds what the recordings of a sweep say of the cut-off t_c of ageing, in Units::stick_s. A priori t_c lies between
+/// 0 and the longest stick, where every root of the share t_c / (t_c + Units::stick_s) is as likely; each is then
+/// weighted by how well the line with it fits the recordings.
 struct AgeingCutoff {
   static constexpr Eigen::Index kPoints = 64;
   using Grid = Eigen::Array<double, kPoints, 1>;
@@ -24,7 +24,7 @@ struct AgeingCutoff {
   Grid values, weights;  ///< over the range; the weights add up to 1
 };
 
-/// Of a sweep: static friction ages with a cut-off; empty: it is constant.
+/// Says whether static friction of a sweep ages, with this cut-off, or is constant (empty).
 using StaticFriction = std::optional<AgeingCutoff>;
 
 /// F_s - F_k(0+) / Units::force of each recording.
@@ -40,7 +40,7 @@ struct AgeingLine {
   Eigen::VectorXd difference_weights, rate_weights;  ///< of the recordings' own F_s - F_k(0+)
   double residual_variance = 0.0;                    ///< of one recording around the line
   bool explains = false;                             ///< what is left is within the recordings' own errors
-  /// Of D, rate and cut-off: how the line moves as the cut-off goes through its values.
+  /// Holds the covariance of D, rate and cut-off: how the line moves as the cut-off runs through its values.
   Eigen::Matrix3d by_cutoff = Eigen::Matrix3d::Zero();
 };
 
@@ -51,9 +51,9 @@ AgeingLine ageing_line(const SweepSolution& solution, const AgeingCutoff& cutoff
 /// errors, or by more than chance (fewer than one sweep of 100 without ageing is taken for one that ages).
 StaticFriction static_friction_of(const SweepSolution& solution);
 
-/// What the sweep tells of static friction beyond its speeds. Where the recordings differ, the trend of
-/// ln(F_s - F_k(0+)) over ln V may end or double. Where they share one, the trend that they could hide, by the evidence
-/// that there is none (Schwarz's criterion).
+/// Returns what the sweep shows of static friction outside its speeds. Where the recordings differ, the trend of ln(F_s
+/// - F_k(0+)) over ln V may end or double. Where they share one, the result is the trend that may go unnoticed in them,
+/// by the evidence that there is none (Schwarz's criterion).
 SpeedReach reach_of(const SweepSolution& solution);
 
 }  // namespace slipfit::fit

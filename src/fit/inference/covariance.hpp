@@ -29,8 +29,8 @@ NewtonStep newton_step(const Problem& problem, const std::vector<Normal>& normal
 /// `reduced`: as Elimination::common. Not a number where it is singular.
 Eigen::MatrixXd common_steps(const RowMajor& reduced, Eigen::Index sides, const std::vector<Eigen::Index>& held);
 
-/// What the coordinates of a recording move by with steps of the common parameters (common_steps), the cycles' own
-/// following: of the first of the sides.
+/// Returns the move of the coordinates of a recording with steps of the common parameters (common_steps), the cycles'
+/// own following, for the first of the sides.
 Coordinates move_of(const Selection& selection, const Elimination& elimination, const Eigen::MatrixXd& steps);
 
 /// Inverse normal matrix seen through the coordinates: S' H^-1 S, with the ramps' coupling of neighbours where
@@ -38,15 +38,15 @@ Coordinates move_of(const Selection& selection, const Elimination& elimination, 
 CoordinateMatrix white_covariance(const Problem& problem, const std::vector<Normal>& normals,
                                   const Selection& selection, const SolveOptions& solved);
 
-/// What the residuals of each cycle of a recording move the coordinates by, to first order: residuals x coordinates.
-/// Not a number where H is singular.
+/// Returns the moves of the coordinates by the residuals of each cycle of a recording, to first order: residuals x
+/// coordinates. They are not a number where H is singular.
 std::vector<Eigen::MatrixXd> influences_of(const BlockFit& fit, const Selection& selection, const SolveOptions& solved);
 
 /// Delete-one-cycle jackknife of the coordinates, one Newton step each: CR3.
 CoordinateMatrix jackknife_covariance(const Problem& problem, const std::vector<Normal>& normals,
                                       const Selection& selection, const Held& held);
 
-/// What is left of a covariance where one coordinate is held.
+/// Returns the covariance that remains when one coordinate is held.
 CoordinateMatrix given(const CoordinateMatrix& covariance, Coordinate held);
 
 }  // namespace slipfit::fit

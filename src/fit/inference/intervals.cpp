@@ -7,7 +7,7 @@
 namespace slipfit::fit {
 namespace {
 
-/// How far a quantity may be off to either side, both at least 0.
+/// Says how far a quantity may be off to either side, both at least 0.
 struct OneSided {
   double down = 0.0;
   double up = 0.0;

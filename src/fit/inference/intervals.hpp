@@ -19,8 +19,8 @@ Interval damping_interval(double zeta, double se, double quantile);
 /// A number that knows its derivatives with respect to the coordinates.
 using Jet = ceres::Jet<double, kCoordinates>;
 
-/// Where the sum of squares is no parabola along one coordinate: how all of them move while it goes through its 95 %
-/// interval.
+/// Holds the moves of all coordinates while one of them runs through its 95 % interval. A profile is needed where the
+/// sum of squares is no parabola along that coordinate.
 struct Profile {
   CoordinateMatrix held;           ///< covariance with that coordinate held
   std::vector<Coordinates> moves;  ///< from the best values; the farthest ones are at the ends of the interval
@@ -29,16 +29,16 @@ struct Profile {
   bool at_bound = false;
 };
 
-/// What is known of the coordinates.
+/// Holds what is known of the uncertainty of the coordinates.
 struct Spread {
   CoordinateMatrix covariance = CoordinateMatrix::Zero();
   double degrees_of_freedom = 1.0;
-  /// Of means over few cycles or recordings, with degrees of freedom of its own.
+  /// Holds the covariance of means over few cycles or recordings, with degrees of freedom of its own.
   CoordinateMatrix scatter = CoordinateMatrix::Zero();
   double scatter_degrees_of_freedom = 1.0;
   std::optional<Profile> profile;
-  /// What the coordinates are off by at most, in full or in part, for reasons that no refit shows: each lengthens one
-  /// side of an interval.
+  /// Holds how far the coordinates are off at most, in full or in part, for reasons that no refit shows. Each entry
+  /// lengthens one side of an interval.
   std::vector<Coordinates> one_sided{};
   /// The way to each of other fits of which one may be right: the farthest lengthens its side of an interval.
   std::vector<Coordinates> to_rivals{};
@@ -57,13 +57,14 @@ class Intervals {
   [[nodiscard]] Estimate interval_of(const Jet& y) const;
   /// Symmetric in the logarithm: the sign is known.
   [[nodiscard]] Estimate interval_of_one_sign(const Jet& y) const;
-  /// Of a quantity that bends over the profile: `at` gives its value where the coordinates have moved.
+  /// Returns the interval of a quantity that bends over the profile. `at` gives its value where the coordinates have
+  /// moved.
   [[nodiscard]] Estimate interval_along(const Jet& y, const std::function<double(const Coordinates&)>& at) const;
 
   [[nodiscard]] double covariance(const Jet& a, const Jet& b) const {
     return a.v.dot((spread_.covariance + spread_.scatter) * b.v);
   }
-  /// With what lengthens one side: anything up to it is as likely, a third of its square.
+  /// Includes what lengthens one side: anything up to it is as likely, which adds a third of its square.
   [[nodiscard]] double whole_covariance(const Jet& a, const Jet& b) const {
     double whole = covariance(a, b);
     for (const auto* moves : {&spread_.one_sided, &spread_.to_rivals}) {
@@ -71,22 +72,22 @@ class Intervals {
     }
     return whole;
   }
-  /// By the covariance.
+  /// Returns the standard error by the covariance.
   [[nodiscard]] double standard_error(const Jet& y) const;
-  /// Of Student's t: those of fit and scatter (Satterthwaite).
+  /// Returns the degrees of freedom of Student's t, from those of fit and scatter (Satterthwaite).
   [[nodiscard]] double degrees_of_freedom(const Jet& y) const;
   [[nodiscard]] double quantile(const Jet& y) const { return t_quantile(degrees_of_freedom(y)); }
   [[nodiscard]] const Spread& spread() const { return spread_; }
 
  private:
-  /// How far below and above its value a quantity reaches, both at least 0.
+  /// Says how far a quantity extends below and above its value, both at least 0.
   struct Reach {
     double down = 0.0;
     double up = 0.0;
   };
   [[nodiscard]] Reach reach_of(const Jet& y, const std::function<double(const Coordinates&)>& change) const;
   [[nodiscard]] Reach reach_of(const Jet& y) const;
-  /// Without what lengthens one side.
+  /// Returns the reach without what lengthens one side.
   [[nodiscard]] Reach reach_of_spread(const Jet& y, const std::function<double(const Coordinates&)>& change) const;
   [[nodiscard]] Estimate estimate(const Jet& y, const Reach& reach) const;
 

@@ -17,7 +17,7 @@
 namespace slipfit::fit {
 namespace {
 
-/// What the cycles show of the level, in the unit of the force.
+/// Holds what the cycles show of the level, in the unit of the force.
 struct Levels {
   std::vector<double> time_s;
   std::vector<double> fitted;  ///< the polynomial of the model, or one through levels of their own
@@ -51,10 +51,10 @@ Levels levels_of(const BlockFit& blocks) {
   return levels;
 }
 
-/// Standard error of the rate by the scatter s of the n cycles about the fitted level. The coefficient of the Legendre
-/// polynomial of order j has the variance (2 j + 1) s^2 / n, and those of odd order differ by 2 between the ends. Where
-/// neighbours deviate alike, as beside an interference line or a random walk, as many cycles say less: their variance
-/// times (1 + r) / (1 - r), with their correlation r.
+/// Returns the standard error of the rate by the scatter s of the n cycles about the fitted level. The coefficient of
+/// the Legendre polynomial of order j has the variance (2 j + 1) s^2 / n, and those of odd order differ by 2 between
+/// the ends. Where neighbours deviate alike, as with an interference line or a random walk, as many cycles say less:
+/// their variance is multiplied by (1 + r) / (1 - r), with their correlation r.
 double error_of_rate(const Levels& levels) {
   double square = 0.0, product = 0.0, ends = 0.0;
   for (std::size_t j = 1; j < levels.terms; j += 2) ends += 4.0 * static_cast<double>(2 * j + 1);
@@ -69,7 +69,7 @@ double error_of_rate(const Levels& levels) {
   return std::sqrt(variance * ends / static_cast<double>(levels.time_s.size())) / levels.duration_s();
 }
 
-/// The level beyond the first cycle of three, by the parabola through these (Newton's divided differences).
+/// Extrapolates the level by the parabola through three cycles (Newton's divided differences).
 double continued(const Levels& levels, const std::array<std::size_t, 3>& cycles, double time_s) {
   const auto [a, b, c] = cycles;
   const auto slope = [&](std::size_t from, std::size_t to) {
@@ -103,7 +103,7 @@ double share_by_load(const Recording& recording, double rate_per_s) {
   return std::clamp(mean_of(recording.force()) / mean_load_N * load_rate / rate_per_s, 0.0, 1.0);
 }
 
-/// Which share of a trend may be a change of the friction, from the least to the most.
+/// Returns the least and the largest share of a trend that may be a change of the friction.
 Interval possible_shares(const Recording& recording, const std::optional<RampDrift>& drift, double rate_per_s) {
   const LevelReading stated = recording.conditions().drift;
   if (stated == LevelReading::Sensor) return {0.0, 0.0};

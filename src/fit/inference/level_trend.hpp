@@ -22,8 +22,8 @@ struct TrendFindings {
 
 TrendFindings find_level_trend(const Recording& recording, const DampedFit& fit);
 
-/// Of the recordings of a sweep, weighted as they determine k: the mean change of ln k by the readings, and the widest
-/// range of a level. Rates differ between the recordings: there is none.
+/// Returns the trend of the recordings of a sweep, weighted as they determine k: the mean change of ln k by the
+/// readings, and the widest range of a level. Rates differ between the recordings, so the result has no rate.
 TrendFindings trend_of_sweep(std::span<const SweepRecording> recordings, const SweepData& data, const Held& held);
 
 /// The values by the reading to report.

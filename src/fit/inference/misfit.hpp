@@ -11,7 +11,7 @@ namespace slipfit::fit {
 /// Stretches of equal length from shortly before a slip to shortly after it.
 inline constexpr int kSegments = 8;
 
-/// Where residuals are the same in every cycle, and how large.
+/// Says where in a slip residuals are the same in every cycle, and how large they are.
 struct SegmentMisfit {
   double position = 0.0;  ///< middle of the worst stretch: 0 at the onset, 1 at the end of slip
   double size = 0.0;      ///< mean residual there over the mean onset force, signed
@@ -21,8 +21,8 @@ struct SegmentMisfit {
 /// Stretch of a sample; empty outside all.
 std::optional<std::size_t> segment_of(const CycleState& state, double time_s);
 
-/// Residuals stacked over the segments of the slip. Empty where no stretch has a mean that is beyond chance (4.5
-/// standard errors over the cycles) and matters (1 % of the onset force, `tolerated` on top); below 5 cycles.
+/// Stacks residuals over the segments of the slip. The result is empty where no stretch has a mean that exceeds chance
+/// (4.5 standard errors over the cycles) and matters (1 % of the onset force, `tolerated` on top), and below 5 cycles.
 std::optional<SegmentMisfit> find_misfit(const BlockFit& fit, double tolerated);
 
 /// Root mean square over the stretches of a slip, over the mean onset force.

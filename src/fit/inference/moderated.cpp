@@ -31,7 +31,8 @@ double inverse_trigamma(double x) {
   return y;
 }
 
-/// What the samples have in common, and for how many degrees of freedom it counts; empty: infinitely many.
+/// Holds the variance that the samples have in common, and how many degrees of freedom it counts for; empty: infinitely
+/// many.
 struct Common {
   double variance = 0.0;
   std::optional<double> degrees;

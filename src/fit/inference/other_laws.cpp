@@ -11,11 +11,12 @@ namespace {
 /// alpha v_c of the logarithmic law: friction that goes on changing below the slowest sliding that a slip shows.
 constexpr std::array kEarlierRates{-3.0, -10.0, -30.0, -100.0, -300.0};
 
-/// Rise of the sum of squares, in variances of the residuals, beyond which a law is excluded: chi^2 of one degree of
-/// freedom at 95 %.
+/// A law is excluded if the sum of squares rises by more than this, in variances of the residuals: chi^2 of one degree
+/// of freedom at 95 %.
 constexpr double kExcluding = 3.841458821;
 
-/// alpha v_c of the hyperbolic law, beyond which it is Coulomb friction with a spike at rest, which no slip shows.
+/// Limits alpha v_c of the hyperbolic law. Below it the law is Coulomb friction with a spike at rest, which no slip
+/// shows.
 constexpr double kSteepest = -20.0;
 
 double rate_of(const SweepSolution& solution) {

@@ -7,12 +7,12 @@
 
 namespace slipfit::fit {
 
-/// Another law of kinetic friction beside the exponential one: what F_k(0+) is, and so F_s - F_k(0+), depends on how
-/// the friction goes on below the speeds that were measured.
+/// Describes a law of kinetic friction other than the exponential one: F_k(0+), and so F_s - F_k(0+), depends on the
+/// friction below the speeds that were measured.
 struct OtherLaw {
   FrictionLaw law = FrictionLaw::Hyperbolic;
   double difference = 0.0;  ///< F_s - F_k(0+) under it / Units::force
-  /// How far it moves F_k(0+) and F_s - F_k(0+).
+  /// Says how far this law moves F_k(0+) and F_s - F_k(0+).
   Coordinates move = Coordinates::Zero();
 };
 

@@ -20,7 +20,7 @@ namespace {
 constexpr std::array kRates{kLeastRate, -7.0, -5.0, -3.5, -2.5, -1.8, -1.3, -0.9,
                             -0.6,       -0.3, 0.01, 0.3,  0.6,  1.0,  1.5,  kMostRate};
 
-/// Where the coordinates are with alpha held.
+/// Says where the coordinates are with alpha held.
 struct Point {
   Coordinates move;   ///< from the best ones
   double root = 0.0;  ///< of the rise in the sum of squares, in standard errors
@@ -36,8 +36,8 @@ std::vector<double> rates_beside(double best, double side) {
   return rates;
 }
 
-/// How far the values move on one side, as long as the sum of squares has risen by less than the square of the
-/// quantile, and where it passes that.
+/// Returns the moves of the values on one side, as long as the sum of squares has risen by less than the square of the
+/// quantile, and at the point at which it passes that.
 std::vector<Point> points_on(const SweepSolution& solution, const StaticFriction& kind, const Coordinates& best,
                              double quantile, double side) {
   const double variance = std::max(1.0, solution.chi2 / solution.degrees_of_freedom);
@@ -67,8 +67,8 @@ struct Sides {
   std::vector<Point> lower, higher;
 };
 
-/// Where the best zeta is negative: moves `best` to the best point with zeta >= 0, and lets the sides lead from there
-/// to the others of these. Nothing where there is none.
+/// Moves `best` to the best point with zeta >= 0 where the best zeta is negative, and lets the sides lead from there to
+/// the others of these. Does nothing where no point has zeta >= 0.
 void avoid_negative_damping(Coordinates& best, Sides& sides) {
   if (!(best(kDamping) < 0.0)) return;
   std::vector<Point> physical;

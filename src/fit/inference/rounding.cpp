@@ -11,7 +11,7 @@ namespace slipfit::fit {
 
 namespace {
 
-/// For |x| < 2^51, without a call: the last bit of the sum is 1.
+/// Returns the nearest integer for |x| < 2^51, without a call: the last bit of the sum is 1.
 double nearest_integer(double x) {
   constexpr double kLastBitIsOne = 0x1.8p52;
   return (x + kLastBitIsOne) - kLastBitIsOne;

@@ -18,7 +18,8 @@ CoordinateMatrix with_unknown_shape(const CoordinateMatrix& covariance, const Bl
 /// The average that is a parameter of the fit; empty where it is none.
 std::optional<FittedAverage> average_of(const BlockFit& fit, const CoordinateMatrix& covariance);
 
-/// With the average that is a parameter of the fit, where it is one, and what its unknown shape adds to the covariance.
+/// Returns the fit with the average that is a parameter of it, if it is one, and with what its unknown shape adds to
+/// the covariance.
 DampedFit with_average_error(DampedFit fit);
 
 }  // namespace slipfit::fit

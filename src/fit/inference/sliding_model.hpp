@@ -31,7 +31,7 @@ struct SlidingModel {
   [[nodiscard]] std::optional<Cycle> cycle(double speed_m_per_s, double load, const Jet& difference_N) const;
 
  private:
-  /// Of k at a speed over that at Units::speed_m_per_s.
+  /// Returns the ratio of k at a speed to that at Units::speed_m_per_s.
   [[nodiscard]] Jet growth_at(double speed_m_per_s) const;
   /// After the sticks of this speed.
   [[nodiscard]] std::optional<Jet> aged_difference_N(double speed_m_per_s, double load) const;

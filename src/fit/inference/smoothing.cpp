@@ -21,7 +21,7 @@ using Eigen::VectorXd;
 /// Moving average of the trial: its effect on the slip is still of second order, and it reaches over several samples.
 constexpr double kTrialShare = 0.15;  // of the half period
 constexpr double kTrialSteps = 2.0;
-constexpr std::size_t kMostCycles = 256;  // more would not tell it better than needed
+constexpr std::size_t kMostCycles = 256;  // more would determine it better than needed
 
 /// Residuals with a wider moving average than the model's.
 VectorXd averaged_residuals(const BlockFit& wider, std::size_t cycle) {

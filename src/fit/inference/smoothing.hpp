@@ -14,7 +14,7 @@ struct Smoothing {
   double standard_error_s2 = 0.0;
   Coordinates move_per_s2 = Coordinates::Zero();  ///< from the fit's coordinates to those with it in the model
 
-  /// Beyond what averaging over one step of the clock explains.
+  /// Returns whether the averaging exceeds what one step of the clock explains.
   [[nodiscard]] bool exceeds_step(double sample_interval_s) const;
   /// sigma^2 that what is seen allows for. The move per sigma^2 is that of little averaging: a quarter more of what is
   /// seen allows for the bend.

@@ -35,7 +35,7 @@ double variance_of_mean(const VectorXd& values) {
   return (values.array() - values.mean()).square().sum() / (count * (count - 1.0));
 }
 
-/// Without ageing a level line: the mean.
+/// Returns the line of static friction: without ageing it is level, at the mean.
 AgeingLine static_friction_line(const SweepSolution& solution, const StaticFriction& kind) {
   if (kind) return ageing_line(solution, *kind);
   const VectorXd differences = shared_or_own(differences_of(solution), solution.sweep.sharing.difference);
@@ -70,7 +70,7 @@ Selection selection_of(const SweepSolution& solution, const AgeingLine& line) {
   return selection;
 }
 
-/// Of the recordings around their line; they count then, and not their cycles.
+/// Adds the scatter of the recordings around their line. The recordings count then, and not their cycles.
 void add_scatter(Spread& spread, const SweepSolution& solution, const AgeingLine& line, const StaticFriction& kind) {
   MatrixXd scatter(line.rate_weights.size(), 2);
   scatter << line.difference_weights, line.rate_weights;

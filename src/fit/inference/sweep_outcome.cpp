@@ -87,8 +87,8 @@ std::optional<double> left_out_difference(const SweepOutcome& outcome, std::size
   return std::log(spacing->a / (speed * median_period_s(blocks)));
 }
 
-/// By how much a recording at an end of the speeds is missed by the others, a factor of e beyond them: whatever the law
-/// lacks shows there first.
+/// Returns the largest error of predictions of a recording at an end of the speeds by the others, per factor of e
+/// outside their speeds: whatever the law lacks shows there first.
 double error_beyond(const SweepOutcome& outcome) {
   double largest = 0.0;
   for (std::size_t recording = 0; recording < outcome.left_out.size(); ++recording) {
@@ -101,7 +101,7 @@ double error_beyond(const SweepOutcome& outcome) {
   return largest;
 }
 
-/// What the coordinates of `outcome` move by with one that is held.
+/// Returns the move of the coordinates of `outcome` per unit of one that is held.
 std::optional<Coordinates> moves_by(Coordinate coordinate, const SweepSolution& solution, const SweepOutcome& outcome) {
   constexpr double kStep = 0.01;  // of ln w_n or zeta
   const std::optional<SweepSolution> other = with_held(solution, coordinate, kStep);
@@ -109,7 +109,8 @@ std::optional<Coordinates> moves_by(Coordinate coordinate, const SweepSolution& 
   return (coordinates_of(*other, outcome.static_friction) - outcome.values) / kStep;
 }
 
-/// With the errors of w_n and zeta, held in `outcome` at what ring-downs, or a stated mass alone, tell of them.
+/// Returns the covariance with the errors of w_n and zeta, which `outcome` holds at the values by ring-downs or by a
+/// stated mass alone.
 CoordinateMatrix with_errors_of_held(const SweepData& data, const SweepSolution& solution,
                                      const SweepOutcome& outcome) {
   const CoordinateMatrix& held = outcome.spread.covariance;

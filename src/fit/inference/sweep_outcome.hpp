@@ -31,7 +31,7 @@ struct SweepOutcome {
 /// Fits once without each recording.
 SweepOutcome outcome_of(const SweepData& data, const SweepSolution& solution);
 
-/// With the trends of F_s - F_k and k at a speed beyond its own.
+/// Returns the spread with the trends of F_s - F_k and k at a speed outside those of the fit.
 Spread spread_at(const LeftOut& fit, double speed_m_per_s);
 
 /// Root mean square of ln (spacing predicted without a recording / its own); no prediction counts as a factor of 2.
@@ -42,8 +42,8 @@ double left_out_error(const SweepOutcome& outcome);
 double residual_over_noise(std::span<const SweepRecording> recordings, const SweepData& data,
                            const SweepSolution& solution);
 
-/// By how much averaging of the samples, where none is stated, may make w_n too small: over a step of the clock, or
-/// what the slips of all recordings show together.
+/// Returns by how much averaging of the samples, if none is stated, may make w_n too small: over a step of the clock,
+/// or what the slips of all recordings show together.
 double effect_of_averaging(std::span<const SweepRecording> recordings, const SweepOutcome& outcome,
                            const SweepData& data);
 

@@ -96,7 +96,7 @@ double force_scale(const BlockFit& fit) {
   return std::exp(values(kLogStiffness) - values(kLogFrequency)) * fit.scales().speed_m_per_s;
 }
 
-/// Of all cycles.
+/// Returns the number of parameters of all cycles.
 double parameters_of(const BlockFit& fit) {
   const CycleModel& any = fit.model(0);
   return static_cast<double>(any.columns().common() + any.columns().own() * fit.size());

@@ -7,7 +7,7 @@
 
 namespace slipfit::fit {
 
-/// What refits move the coordinates by, one a row.
+/// Holds the moves of the coordinates by refits, one a row.
 using Moves = Eigen::Matrix<double, Eigen::Dynamic, kCoordinates>;
 
 struct Uncertainty {

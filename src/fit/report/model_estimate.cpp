@@ -9,7 +9,7 @@
 namespace slipfit::fit {
 namespace {
 
-/// Of the covariance of a model, rows and columns `used` (places in kModelParameters).
+/// Returns the correlation by the covariance of a model, for the rows and columns `used` (places in kModelParameters).
 Correlation correlation_of(const ModelEstimate& estimate, const std::vector<std::size_t>& used) {
   Correlation correlation;
   for (const std::size_t i : used) {

@@ -14,40 +14,40 @@ inline constexpr const char* kStatedSpeed =
     "the stated driving speed (k, m and c are inversely proportional to it; --speed-uncertainty widens their "
     "intervals)";
 
-/// Why nothing that is read from the slip is identified where W is fitted.
+/// States why nothing that is read from the slip is identified where W is fitted.
 inline constexpr const char* kFittedAverage = "assumes that the sensor averages uniformly over the fitted time";
-/// Why a force level is conditional.
+/// States why a force level is conditional.
 inline constexpr const char* kZeroUnknown =
     "assumes that the sensor reads 0 without force: state its reading with --zero";
-/// Why F_s - F_k and zeta of one speed are conditional.
+/// States why F_s - F_k and zeta of one speed are conditional.
 inline constexpr const char* kOneSpeed =
     "assumes kinetic friction that does not depend on sliding speed; one driving speed cannot test this: fit a sweep";
 
-/// Why w_n and mass are not read from the slips.
+/// States the source of w_n and mass that are not read from the slips.
 inline constexpr const char* kRingDown = "the free ring-down, which was used as data for w_n and zeta";
 inline constexpr const char* kStatedMass = "from the stated mass, because sensor averaging hides w_n";
 
-/// Why the mass is not identified where the force rises after a slip.
+/// States why the mass is not identified where the force rises after a slip.
 inline constexpr const char* kRiseOfTimeOrDistance =
     "the rise of the force after a slip may be the relaxation of the contact, whose stiffness in the slip is larger: "
     "the interval includes both";
 
-/// That an average of the samples is fitted.
+/// Warns that an average of the samples is fitted.
 Warning averaged_warning(double average_s);
 
-/// Why w_n is not identified where averaging over a step of the clock would change it by so much of itself.
+/// Returns why w_n is not identified where averaging over a step of the clock would change it by so much of itself.
 std::string averaging_doubt(double change);
 /// The same of an average that the slips may hide.
 std::string unexcluded_average(double average_s, double change);
 
-/// That a line swings in the sticks: of the drive, unless that would have to turn back.
+/// Warns that a line swings in the sticks. It is of the drive, unless that would have to turn back.
 Warning ripple_warning(const StickRipple& ripple);
 
 /// What it would take to know zeta well enough. Its errors fall with the root of the cycles; identified from a quarter
 /// on.
 std::string weak_damping(const Estimate& damping);
 
-/// The cut-off of ageing, where the recordings do not tell it: the part of its range that they allow.
+/// Returns the cut-off of ageing where the recordings do not determine it: the part of its range that they allow.
 Parameter held_cutoff(const AgeingCutoff& cutoff, double stick_s);
 
 }  // namespace slipfit::fit

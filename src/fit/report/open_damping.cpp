@@ -9,7 +9,7 @@ namespace slipfit::fit {
 
 namespace {
 
-/// That the recordings state; 0 where one states none.
+/// Returns the shortest average that the recordings state; 0 if one of them states none.
 double shortest_average_s(std::span<const SweepRecording> recordings) {
   double shortest_s = HUGE_VAL;
   for (const SweepRecording& sweep : recordings) {
@@ -19,7 +19,8 @@ double shortest_average_s(std::span<const SweepRecording> recordings) {
   return std::isfinite(shortest_s) ? shortest_s : 0.0;
 }
 
-/// The sensor averages over most of the slip: its shape tells zeta only where the model explains the rest.
+/// Returns whether the sensor averages over most of the slip: its shape determines zeta only where the model explains
+/// the rest.
 bool is_hidden(const FitResult& result, std::span<const SweepRecording> recordings) {
   const bool agree = std::none_of(result.warnings.begin(), result.warnings.end(),
                                   [](const Warning& warning) { return warning.code == "recordings_disagree"; });

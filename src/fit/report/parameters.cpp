@@ -48,12 +48,13 @@ class Reporter {
   }
 
  private:
-  /// By which statuses are graded: a quarter of the 95 % interval, which few degrees of freedom make wide.
+  /// Returns the relative error by which statuses are graded: a quarter of the 95 % interval, which few degrees of
+  /// freedom make wide.
   static double relative_error(const Estimate& estimate) {
     return 0.25 * (estimate.ci95->high - estimate.ci95->low) / std::abs(*estimate.value);
   }
 
-  /// `doubt`: empty where nothing but its size speaks against the estimate.
+  /// Grades an estimate. `doubt` is empty where nothing but its size speaks against the estimate.
   [[nodiscard]] ParameterStatus graded(Id id, const Estimate& estimate, const std::string& doubt) const {
     const bool good = doubt.empty() && f_.cycles >= thresholds::kIdentifyingCycles &&
                       relative_error(estimate) < info(id).identified_below;
@@ -79,7 +80,7 @@ class Reporter {
     return f_.cycles < thresholds::kIdentifyingCycles ? fmt::format("only {} cycles", f_.cycles) : std::string();
   }
 
-  /// Why nothing that is read from the slip is identified.
+  /// Returns why nothing that is read from the slip is identified.
   [[nodiscard]] std::string slip_doubt() const {
     if (!f_.slip_doubt.empty()) return f_.slip_doubt;
     if (f_.samples_per_slip > thresholds::kSlipSamples) return {};
@@ -177,7 +178,8 @@ class Reporter {
 
   [[nodiscard]] std::string frequency_doubt() const { return slip_doubt().empty() ? f_.frequency_doubt : slip_doubt(); }
 
-  /// From one speed F_s - F_k and zeta cannot be told from friction that depends on the speed.
+  /// Returns the status of F_s - F_k or zeta, which one speed cannot distinguish from friction that depends on the
+  /// speed.
   [[nodiscard]] ParameterStatus at_one_speed(ParameterStatus status) const {
     const bool is_one = !f_.law || f_.law->at_one_speed;
     return status == ParameterStatus::Identified && is_one ? ParameterStatus::Conditional : status;

@@ -21,7 +21,7 @@
 namespace slipfit::fit {
 namespace {
 
-/// Where the free zeta lies below 0, the fit with zeta = 0 is the best one.
+/// Returns whether the fit with zeta = 0 is the best one, because the free zeta is below 0.
 bool is_at_bound(const TierFits& fits) {
   return fits.damped.blocks.parameters.values(kDamping) < 0.0 && !fits.damping_held() && fits.undamped.has_value();
 }
@@ -30,7 +30,7 @@ const BlockFit& reported(const TierFits& fits) {
   return is_at_bound(fits) ? fits.undamped->blocks : fits.damped.blocks;
 }
 
-/// What makes k uncertain beside the fit.
+/// Holds what makes k uncertain besides the fit.
 struct StiffnessFindings {
   double variance = 0.0;  ///< of ln k
   std::string note;
@@ -38,7 +38,7 @@ struct StiffnessFindings {
   Warnings warnings;
 };
 
-/// A line beside the cycles: left in the sticks because it is in step with the slips, or in the fit.
+/// Returns a line next to the cycles: left in the sticks because it is in step with the slips, or in the fit.
 std::optional<StickRipple> ripple_of(const DampedFit& fit) {
   return fit.ripple && fit.ripple->speed_share > thresholds::kRippleShare ? fit.ripple : fitted_ripple(fit.blocks);
 }
@@ -81,7 +81,7 @@ Spread spread_of(const DampedFit& fit) {
   return spread;
 }
 
-/// What averaging in the instrument may have changed where its duration is not stated.
+/// Holds what averaging in the instrument may have changed if its duration is not stated.
 struct AveragingFindings {
   Coordinates one_sided = Coordinates::Zero();
   std::string doubt;        ///< of all that is read from the slip
@@ -89,7 +89,8 @@ struct AveragingFindings {
   Warnings warnings;
 };
 
-/// Where averaging is not stated it is taken for anything up to one step of the clock, or for what the slips show.
+/// Returns the effects of averaging. If it is not stated it is assumed to be anything up to one step of the clock, or
+/// what the slips show.
 AveragingFindings averaging_of(const Recording& recording, const DampedFit& fit, const BlockFit& blocks) {
   AveragingFindings result;
   if (recording.conditions().sensor_average_s) return result;
@@ -166,8 +167,8 @@ void state_law(const DampedFit& fit, Findings& findings) {
   if (!fit.law_doubt.empty()) (findings.weakens ? findings.slip_doubt : findings.slip_distance_unknown) = fit.law_doubt;
 }
 
-/// Why w_n and zeta cannot be read from the slips of a contact that is not the model's and not seen as it is; empty:
-/// they can. A fall that the sensor's average draws out fits as well as a slow slip then.
+/// Returns why w_n and zeta cannot be read from the slips of a contact that is not the model's and not seen as it is;
+/// empty where they can. A fall that the sensor's average draws out fits as well as a slow slip then.
 std::string doubt_of_fall(const Conditions& conditions, const DampedFit& fit, const Residual& residual,
                           const Findings& findings) {
   const auto stated_mass = [&] {
@@ -190,12 +191,12 @@ std::string doubt_of_fall(const Conditions& conditions, const DampedFit& fit, co
   const std::string open_fall =
       "the force recovers after a slip, and residuals are correlated and larger than the noise: sensor averaging "
       "(--sensor-average) or friction may determine the slip time instead of the mass";
-  // An average hides slips that are quicker, and so of a smaller mass, than they look.
+  // An average obscures slips that are quicker, and so of a smaller mass, than they look.
   const bool is_too_large = sigmas_of_stated_mass(conditions, fit) > thresholds::kSureTerm;
   return is_too_large ? open_fall + "; " + stated_mass() : open_fall;
 }
 
-/// Why what is read from the slip cannot be told, or not surely.
+/// States why what is read from the slip is not determined, or not surely.
 void state_doubts(const Conditions& conditions, const TierFits& fits, const Resolution& resolution,
                   const Residual& residual, Findings& findings) {
   // White residuals that exceed the noise are noise of the slips, which the scatter of the cycles has in the

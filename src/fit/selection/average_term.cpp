@@ -52,7 +52,7 @@ bool follows_slips(const DampedFit& fit, double sample_interval_s) {
          resting_share(fit.blocks) >= thresholds::kRestickShare && median_slip_s(fit.blocks) > sample_interval_s;
 }
 
-/// Slips and W can be told apart.
+/// Returns whether the slips and W can be distinguished.
 bool tells_slips(const DampedFit& fit) {
   return damping_error(fit) < thresholds::kTellingDamping && tells_average(*fit.average);
 }
@@ -108,17 +108,17 @@ Found best_fit(const FitInput& input, const TermFitter& fitter, const DampedFit&
   return found;
 }
 
-/// What an average of the instrument explains that a fit without does not.
+/// Holds the fit with an average of the instrument, or that fit as a rival of the fit without one.
 struct AverageTrial {
   std::optional<DampedFit> fit{};    ///< empty: not taken
   std::optional<DampedFit> rival{};  ///< not taken, but not ruled out, though its w_n and zeta are others
 };
 
-/// The fit with one parameter more, the time W over which the instrument averages its samples (docs/model.md section
-/// 7), where it is not stated and `plain`, the fit without, shows a sign of it. Its covariance holds that of W. Not
-/// taken where W does not explain all that `plain` misses of the slips or a sensor of first order explains it as well.
-/// Where the slips do not determine W, DampedFit::fall_doubt says so; where another W explains them as well, intervals
-/// hold both fits.
+/// Tries the fit with one parameter more, the time W over which the instrument averages its samples (docs/model.md
+/// section 7), where it is not stated and `plain`, the fit without, shows a sign of it. Its covariance includes that of
+/// W. It is not taken where W does not explain all that `plain` misses of the slips or a sensor of first order explains
+/// it as well. Where the slips do not determine W, DampedFit::fall_doubt says so; where another W explains them as
+/// well, intervals include both fits.
 AverageTrial try_average(const FitInput& input, const DampedFit& plain) {
   if (!may_be_averaged(input, plain)) return {};
   const std::optional<TermFitter> fitter = TermFitter::create(input, plain);

@@ -57,7 +57,7 @@ Chosen choose_law(const FitInput& input, DampedFit damped, std::optional<Tier> f
   return with_weakening({std::move(fits), resolution, std::move(candidates)}, input, forced);
 }
 
-/// What slips alone tell.
+/// Chooses the law from the slips alone. The result is empty where no fit of them is found.
 std::optional<Chosen> choose(const FitInput& input, std::optional<Tier> forced, const GiveUp& give_up) {
   std::optional<DampedFit> fit = draft_with_rise(input, give_up);
   if (fit) fit = fit_as_sensed(input, *std::move(fit));

@@ -12,8 +12,8 @@ namespace slipfit::fit {
 /// The samples of either list; both are in ascending order, and so is the result.
 std::vector<std::size_t> united(const std::vector<std::size_t>& first, const std::vector<std::size_t>& second);
 
-/// Samples that no model should be asked to explain: impulses, and those at or beyond a level where the sensor
-/// saturates; in ascending order.
+/// Returns the samples that no model should be asked to explain: impulses, and those at or past a level where the
+/// sensor saturates; in ascending order.
 std::vector<std::size_t> initial_exclusions(const Recording& recording, const Quality& quality);
 
 /// Samples whose model lies where the sensor saturates: keeping those that noise has left below the ceiling, and only

@@ -125,7 +125,7 @@ class Fitter {
     return fit_from(spread_subset(cycles_, kMiddleCycles), level, near.parameters.values, kMiddleIterations, tolerance);
   }
 
-  /// The spectrum tells the frequencies of lines less well than a fit of some cycles from the first to the last.
+  /// The spectrum determines the frequencies of lines less well than a fit of some cycles from the first to the last.
   [[nodiscard]] BlockFit with_settled_hum(BlockFit middle) {
     for (int pass = 0; pass < kCleanPasses && !middle.level().lines_Hz.empty(); ++pass) {
       const Residuals residuals = without(residuals_of(recording_, middle), excluded_);
@@ -209,7 +209,7 @@ class Fitter {
       const std::vector<std::size_t> censored = beyond_clip(recording_, quality_, residuals, scales_.noise);
       const std::vector<std::size_t> bad = unexplained_slips(fit);
       residuals = silenced(std::move(residuals), outliers);
-      residuals.part.swap(parts);  // a stick goes on beside what is left out of it
+      residuals.part.swap(parts);  // a stick continues around what is left out of it
       const std::optional<StickRipple> ripple =
           find_stick_ripple(recording_, fit, residuals, tolerated_misfit(quality_));
       const HumSearch hum = find_hum(recording_, fit, std::move(residuals.value), outliers, ripple);

@@ -12,9 +12,9 @@ namespace slipfit::fit {
 /// empty.
 using GiveUp = std::function<bool(const BlockFit& some)>;
 
-/// The per-cycle block fit with all that makes it stand real recordings: several starts in zeta, a level that may
-/// drift or wander, outliers left out. What finish_fit adds is missing: joined ramps, and more to the uncertainty.
-/// Empty: fewer than 3 cycles to fit, or no start converges.
+/// Returns the per-cycle block fit with all that real recordings require: several starts in zeta, a level that may
+/// drift or wander, outliers left out. What finish_fit adds is missing: joined ramps, and more to the uncertainty. The
+/// result is empty where fewer than 3 cycles can be fitted, or where no start converges.
 std::optional<DampedFit> draft_damped(const FitInput& input, const GiveUp& give_up = {});
 
 /// All cycles with no sample, no slip and no line looked for: how badly they fit, roughly.

@@ -55,7 +55,7 @@ Eigen::VectorXd residuals_of(const CycleData& cycle, double noise) {
   return rows.weight * rows.force / noise;
 }
 
-/// What rounded copies of the model move the quantities by.
+/// Computes the moves of the coordinates by rounded copies of the model.
 class RoundingMoves {
  public:
   RoundingMoves(const FitInput& input, const DampedFit& result)

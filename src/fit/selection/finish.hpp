@@ -7,14 +7,15 @@
 
 namespace slipfit::fit {
 
-/// Of the mean shape of the slips, unit of the force: what rounding to steps of the converter may do to it.
+/// Returns the change that rounding to steps of the converter may make to the mean shape of the slips, in the unit of
+/// the force.
 double tolerated_misfit(const Quality& quality);
 
-/// From solved blocks to a fit with its uncertainty: joined ramps where the data agree. Empty where the normal
-/// equations are singular: the cycles do not tell the shared parameters apart.
+/// Makes a fit with its uncertainty from solved blocks, with joined ramps where the data agree. The result is empty
+/// where the normal equations are singular: the cycles do not distinguish the shared parameters.
 std::optional<DampedFit> with_uncertainty(DampedFit draft, const Quality& quality);
 
-/// With what rounding and misshapen slips, which repeat from cycle to cycle, add to the uncertainty.
+/// Returns the fit with what rounding and misshapen slips, which repeat from cycle to cycle, add to the uncertainty.
 std::optional<DampedFit> finish_fit(const FitInput& input, DampedFit fit);
 
 }  // namespace slipfit::fit

@@ -15,7 +15,7 @@ namespace slipfit::fit {
 /// move its ends.
 double half_width_s(double stiffness_N_per_m, const Scales& scales);
 
-/// Fewest cycles that tell a level of their own from a polynomial.
+/// A level of its own in every cycle cannot be distinguished from a polynomial with fewer cycles than this.
 inline constexpr std::size_t kFewestWandering = 12;
 
 /// The level model to begin with: the polynomial that the middles of the slips justify, or one level a cycle.
@@ -25,7 +25,7 @@ LevelModel first_level(const Recording& recording, const Segmentation& segmentat
 /// Middles of the cycles' slips.
 std::vector<double> middles_s(const Segmentation& segmentation, const std::vector<CycleData>& cycles);
 
-/// Where the search begins: several frequencies where the fall is hardly sampled or drawn out.
+/// Returns the starting values of the search: several frequencies where the fall is hardly sampled or drawn out.
 std::vector<Coordinates> first_values(double stiffness_N_per_m, const HeldParameters& held, const Scales& scales,
                                       double step_s);
 

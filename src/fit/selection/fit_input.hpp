@@ -12,7 +12,7 @@ struct FitInput {
   const Recording& recording;
   const Quality& quality;
   const Segmentation& segmentation;
-  const HeldParameters& held;  ///< by the user, or by what is known beside the slips
+  const HeldParameters& held;  ///< by the user, or by what is known besides the slips
 };
 
 /// The recording, as if it stated that its samples are averaged over this time.

@@ -40,7 +40,7 @@ LawChoice choose_by_chance(const SweepFits& fits, double speeds) {
   return {true, chance};
 }
 
-/// Where residuals are larger than the noise, by what is predicted of a recording left out.
+/// Chooses the law by the predictions of omitted recordings; this applies where residuals are larger than the noise.
 LawChoice choose_by_left_out(double velocity_error, double coulomb_error) {
   return {
       velocity_error < coulomb_error,

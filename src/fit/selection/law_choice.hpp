@@ -12,7 +12,7 @@
 
 namespace slipfit::fit {
 
-/// Which friction law, and the sentence that says why.
+/// Holds the choice of a friction law, and the sentence that says why.
 struct LawChoice {
   bool velocity = false;
   std::string reason;
@@ -21,7 +21,7 @@ struct LawChoice {
 /// The model leaves something out of the recordings.
 bool is_misfit(const SweepSolution& solution);
 
-/// Of the fastest recording in the fit over the slowest.
+/// Returns the ratio of the highest speed to the lowest among the recordings in the fit.
 double speed_ratio(std::span<const SweepRecording> recordings);
 
 struct ChosenLaw {

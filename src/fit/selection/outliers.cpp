@@ -27,7 +27,7 @@ double median_size(const Residuals& residuals, CyclePart part) {
   return signal::median(std::move(sizes));
 }
 
-/// Data minus model, cycle by cycle. In stick the model is a straight line beside the level.
+/// Computes data minus model, cycle by cycle. In stick the model is a straight line next to the level.
 class ResidualsOfCycles {
  public:
   ResidualsOfCycles(const Recording& recording, const BlockFit& fit)
@@ -50,7 +50,7 @@ class ResidualsOfCycles {
     const CycleState state = fit_.state(cycle);
     const std::size_t begin = index_at(fit_.data(cycle).window_begin_s);
     const std::size_t end = std::max(begin, index_at(fit_.data(cycle).window_end_s));
-    const double reach_s = 0.5 * fit_.sensor().average_s;  // over which an average shows the slip beside it
+    const double reach_s = 0.5 * fit_.sensor().average_s;  // over which an average shows the slip outside it
     const std::size_t slip_begin = std::clamp(index_at(state.onset_s - reach_s), begin, end);
     const std::size_t slip_end = std::clamp(index_at(state.onset_s + state.slip_s() + reach_s), slip_begin, end);
     const double rate = state.force_scale * state.omega_rad_per_s;

@@ -7,7 +7,7 @@
 
 namespace slipfit::fit {
 
-/// Which part of a cycle a sample is in; None: outside the fitted cycles, or excluded.
+/// Says which part of a cycle a sample is in. None: the sample is outside the fitted cycles, or excluded.
 enum class CyclePart : unsigned char { None, Stick, Slip };
 
 /// Data minus model (hum included in the model) at every sample of the recording; 0 where the part is None.
@@ -18,10 +18,10 @@ struct Residuals {
 
 Residuals residuals_of(const Recording& recording, const BlockFit& fit);
 
-/// With these samples as if the model met them; they stay in their parts.
+/// Returns the residuals with 0 at these samples, which stay in their parts.
 Residuals silenced(Residuals residuals, const std::vector<std::size_t>& excluded);
 
-/// With these samples as if they were outside the fitted cycles.
+/// Returns the residuals with these samples treated as if they were outside the fitted cycles.
 Residuals without(Residuals residuals, const std::vector<std::size_t>& excluded);
 
 /// Samples farther from the fit than 4.5 robust standard deviations, `noise` at least. Sticks and slips have a scale

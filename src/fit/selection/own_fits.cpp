@@ -39,7 +39,7 @@ std::optional<FittedAverage> mean_of(const std::vector<FittedAverage>& averages)
   return FittedAverage{mean_s, error_s};
 }
 
-/// What one recording shows of averaging that nobody stated; empty where it cannot tell.
+/// Returns the averaging, not stated by the user, that one recording shows; empty where it does not determine it.
 std::optional<Smoothing> rounding_of(const SweepRecording& sweep, const DampedFit& fit) {
   if (sweep.recording.conditions().sensor_average_s) return std::nullopt;
   if (fit.average) {
@@ -49,7 +49,9 @@ std::optional<Smoothing> rounding_of(const SweepRecording& sweep, const DampedFi
   return repeats_rounding(fit) ? std::nullopt : fit.rounding;
 }
 
-/// All recordings of a machine average over the same time: what each alone cannot tell they may tell together.
+/// Returns the largest variance of averaging, in s^2, that all recordings allow together; empty where the averaging
+/// does not exceed a step of the clock. All recordings of a machine average over the same time, so that they may
+/// determine together what each alone does not.
 std::optional<double> common_rounding_s2(std::span<const SweepRecording> recordings, const OwnFits& own) {
   double weights = 0.0;
   double sum = 0.0;
@@ -113,7 +115,8 @@ class OwnFitter {
     return recordings_[i].recording.conditions().sensor_average_s.has_value();
   }
 
-  /// Recordings that are too fast to tell it are fitted with it where it explains them better.
+  /// Fits all recordings with the common length: those that are too fast to determine it only where it explains them
+  /// better.
   void share_length(OwnFits& own) const {
     own.reload_length_m = mean_length_m(own.fits);
     if (!own.reload_length_m) return;
@@ -184,7 +187,7 @@ double median_stiffness(const OwnFits& own) {
   return median(std::move(stiffnesses));
 }
 
-/// The mass that all recordings state, where averaging hides w_n in all of them.
+/// Returns the mass that all recordings state, where averaging obscures w_n in all of them.
 std::optional<StatedMass> common_mass(std::span<const SweepRecording> recordings, const OwnFits& own,
                                       const HeldParameters& held) {
   std::optional<StatedMass> common;

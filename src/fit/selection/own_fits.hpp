@@ -21,11 +21,11 @@ struct OwnFits {
   std::optional<StatedMass> mass{};  ///< that gives w_n
 };
 
-/// What belongs to contact or machine is the same in all of them. Where some show a rise after slips, all are fitted
-/// with one, its length to be found together. Where some that state no average show one, and agree on it, all of these
-/// are fitted with the mean of it if half of them show it or they are explained better together; otherwise what all of
-/// them show together is told. Where averaging hides w_n, a mass that all state gives it. `known`: an average that was
-/// found before, in place of a search for it.
+/// Fits each recording with what belongs to contact or machine, which is the same in all of them. Where some show a
+/// rise after slips, all are fitted with one, its length to be found together. Where some that state no average show
+/// one, and agree on it, all of these are fitted with the mean of it if half of them show it or they are explained
+/// better together; otherwise what all of them show together is reported. Where averaging obscures w_n, a mass that all
+/// state gives it. `known` is an average that was found before, instead of a search for it.
 OwnFits fit_each(std::span<const SweepRecording> recordings, const HeldParameters& held,
                  const std::optional<FittedAverage>& known);
 

@@ -35,7 +35,7 @@ StickBin merge(const std::vector<StickBin>& bins) {
   return all;
 }
 
-/// Without hum and without the rise after a slip.
+/// Returns the bins of a cycle without hum and without the rise after a slip.
 std::vector<StickBin> straightened(std::vector<StickBin> bins, const BlockFit& fit, std::size_t cycle) {
   const double* const waves = fit.wave_data();
   for (StickBin& bin : bins) {

@@ -7,16 +7,17 @@
 
 namespace slipfit::fit {
 
-/// How much steeper a ramp begins (after a slip) than it ends (before the next): ln of the ratio of the slopes, with
-/// the standard error over cycles. 0 for the model's straight sticks. Empty below 5 cycles with both halves.
+/// Says how much steeper a ramp begins (after a slip) than it ends (before the next): ln of the ratio of the slopes,
+/// with the standard error over cycles. It is 0 for the model's straight sticks, and empty below 5 cycles with both
+/// halves.
 struct RampBend {
   double log_ratio = 0.0;
   double standard_error = 0.0;
 };
 std::optional<RampBend> ramp_bend(const BlockFit& fit);
 
-/// Of every cycle the mean of its sticks, before and after the slip, above the model: how its level differs from the
-/// fitted one.
+/// Returns for every cycle the mean of its sticks, before and after the slip, above the model: how its level differs
+/// from the fitted one.
 std::vector<double> level_offsets(const BlockFit& fit);
 
 /// Share of the slope of the level polynomial that the sticks contain: 1 where a sensor drifts, 0 where friction

@@ -8,7 +8,7 @@
 
 namespace slipfit::fit {
 
-/// How the cycles of a recording are cut.
+/// Says how the cycles of a recording are cut.
 struct Cut {
   const Recording& recording;
   const Segmentation& segmentation;
@@ -24,7 +24,7 @@ std::vector<CycleData> same_cycles_of(const BlockFit& fit, std::vector<CycleData
 std::optional<BlockFit> recut(BlockFit fit, const Cut& cut, const std::vector<std::size_t>& bad,
                               const std::vector<double>& lines_Hz);
 
-/// The fit with the scatter in its sticks told beside its hum.
+/// Returns the fit with the scatter in its sticks computed without its hum.
 BlockFit beside_hum(BlockFit fit, const Cut& cut);
 
 }  // namespace slipfit::fit

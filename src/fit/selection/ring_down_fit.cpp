@@ -19,7 +19,7 @@
 namespace slipfit::fit {
 namespace {
 
-/// How far averaging that neither the user states nor the fit has may move ln w_n.
+/// Returns how far averaging that is neither stated by the user nor part of the fit may move ln w_n.
 double off_by_averaging(const Recording& recording, const DampedFit& fit) {
   if (recording.conditions().sensor_average_s || fit.average) return 0.0;
   const Smoothing seen = fit.rounding.value_or(Smoothing{});
@@ -27,7 +27,7 @@ double off_by_averaging(const Recording& recording, const DampedFit& fit) {
   return kFrequencyByAverage * omega * omega * unstated_variance_s2(fit, seen, recording.sample_interval_s());
 }
 
-/// As the ring-down at a speed tells it of the mean of the speeds, by how k goes with the speed.
+/// Converts a ring-down at a speed to the mean of the speeds, by the dependence of k on the speed.
 FreeMotion at_mean_speed(FreeMotion ring, double speed_m_per_s, const SweepOutcome& outcome) {
   const double log_ratio = std::log(speed_m_per_s / outcome.solution.sweep.units.speed_m_per_s);
   const double exponent = outcome.values(kStiffnessExponent);
@@ -59,7 +59,7 @@ FreeMotion mean_of(const std::vector<FreeMotion>& motions) {
   return mean;
 }
 
-/// With the errors of w_n and zeta, which are held at `motion`.
+/// Returns the fit with the errors of w_n and zeta, which are held at `motion`, in its covariance.
 std::optional<DampedFit> with_errors_of(const FreeMotion& motion, DampedFit fit) {
   constexpr double kStep = 0.01;  // of ln w_n and zeta
   const Coordinates here = coordinates_of(fit.blocks);

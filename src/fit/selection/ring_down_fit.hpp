@@ -12,19 +12,19 @@
 
 namespace slipfit::fit {
 
-/// What slips and ring-downs tell of w_n and zeta, beside each other.
+/// Holds what slips and ring-downs say of w_n and zeta, and their comparison.
 struct RingEvidence {
   FreeMotion slips, rings;
   SameMotion same;
 };
 
-/// Of one recording. Empty where `fit`, that of its slips, has no w_n and zeta of its own, or where these are in doubt
-/// and differ from the ring-down's.
+/// Compares the slips and the ring-down of one recording. The result is empty where `fit`, that of its slips, has no
+/// w_n and zeta of its own, or where these are uncertain and differ from the ring-down's.
 std::optional<RingEvidence> ring_evidence(const Recording& recording, const DampedFit& fit, const RingDown& ring);
 
-/// Of a sweep under Coulomb friction, w_n at the mean of its speeds, beside `outcome`, that of its slips. Where zeta is
-/// held there because the slips say nothing of it, w_n of the slips is the one that belongs to the zeta of the
-/// ring-downs. Empty where no recording shows one.
+/// Compares the slips and the ring-downs of a sweep under Coulomb friction, with w_n at the mean of its speeds.
+/// `outcome` is the fit of its slips. Where zeta is held there because the slips say nothing of it, w_n of the slips is
+/// the one that belongs to the zeta of the ring-downs. The result is empty where no recording shows a ring-down.
 std::optional<RingEvidence> ring_evidence(std::span<const SweepRecording> recordings, const SweepData& data,
                                           const SweepOutcome& outcome);
 

@@ -34,7 +34,7 @@ BlockFit with_rise(const BlockFit& fit, std::shared_ptr<const RiseAfterSlip> ris
   return other;
 }
 
-/// With a free length of the rise, after the slips as `fit` has them.
+/// Returns the fit with a free length of the rise, which comes after the slips as `fit` has them.
 std::optional<DampedFit> with_free_length(const Quality& quality, DampedFit fit) {
   RiseAfterSlip rise = moved(*fit.blocks.level().reloading, fit.blocks);
   rise.is_free = true;

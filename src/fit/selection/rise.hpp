@@ -33,8 +33,8 @@ double rise_length_m(const DampedFit& fit);
 /// Empty where the data do not sample it. Without a rise `fit` as it is.
 std::optional<DampedFit> settle_rise(const FitInput& input, std::optional<DampedFit> fit);
 
-/// A solution with its uncertainty, its rise settled. Empty where the data do not tell the parameters apart or do not
-/// sample the rise.
+/// Returns a solution with its uncertainty, its rise settled. The result is empty where the data do not distinguish the
+/// parameters or do not sample the rise.
 std::optional<DampedFit> finish_settled(const FitInput& input, DampedFit fit);
 
 }  // namespace slipfit::fit

@@ -16,8 +16,9 @@ namespace {
 
 constexpr double kFewestFalls = 3.0;  // in a period: two in a wave
 
-/// Beyond chance, where falls are not as slow as those of waves, and an early half of a stick gains more over its late
-/// half than rounding explains, which repeats its errors from stick to stick.
+/// Returns whether the sticks bend by more than chance explains, where falls are not as slow as those of waves, and an
+/// early half of a stick gains more over its late half than rounding explains, which repeats its errors from stick to
+/// stick.
 bool bends(const std::optional<RampBend>& bend, const DampedFit& plain, const Quality& quality) {
   if (!bend || !(bend->log_ratio > thresholds::kBendSigmas * bend->standard_error)) return false;
   const Scales& scales = plain.blocks.scales();
@@ -39,7 +40,7 @@ bool is_at_bound(const BlockFit& fit) {
   return std::exp(fit.parameters.values(kReloadLength)) > kNear * fit.level().reloading->longest_m;
 }
 
-/// A and l are told by this recording alone, and explain most of what bends.
+/// Returns whether this recording alone determines A and l, and they explain most of what bends.
 bool is_justified(const DampedFit& fit, const DampedFit& plain, const RampBend& before) {
   const double rise = fit.blocks.parameters.values(kReloadForce);
   const std::optional<RampBend> after = ramp_bend(fit.blocks);

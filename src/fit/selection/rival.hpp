@@ -11,7 +11,8 @@ namespace slipfit::fit {
 /// was; the way to the values of `other` lengthens one side (moves_to_rivals).
 DampedFit beside_rival(DampedFit fit, const DampedFit& other);
 
-/// From `blocks`, the reported ones of a fit, to each of its rivals, in the coordinates that both have.
+/// Returns the moves from `blocks`, the reported ones of a fit, to each of its rivals, in the coordinates that both
+/// have.
 std::vector<Coordinates> moves_to_rivals(const DampedFit& fit, const BlockFit& blocks);
 
 }  // namespace slipfit::fit

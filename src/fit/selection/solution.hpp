@@ -31,15 +31,16 @@ struct DampedFit {
   std::vector<std::size_t> excluded{};  ///< samples in ascending order: impulses, clipped, outliers
   Uncertainty uncertainty{};
   std::optional<SegmentMisfit> misfit{};   ///< slips are not shaped like the model's; the covariances allow for it
-  std::optional<Smoothing> rounding{};     ///< of the slips beyond what is stated of the sensor; empty: not told
+  std::optional<Smoothing> rounding{};     ///< of the slips, more than the sensor's stated one; empty: not determined
   std::optional<StickRipple> ripple{};     ///< left in the sticks
   std::optional<FittedAverage> average{};  ///< in the model and its covariance; empty: stated, or none
-  /// Where a fit with more terms lies that the data do not rule out: intervals hold its values, too.
+  /// Holds the values of fits with more terms that the data do not rule out. Intervals include them, too.
   std::vector<Coordinates> rivals{};
-  std::string average_doubt{};        ///< why it is not told whether there is one; empty: it is, or there is none
+  std::string average_doubt{};        ///< why it is unknown whether there is one; empty: it is known, or there is none
   std::string fall_doubt{};           ///< why w_n and zeta cannot be read from the slips; empty: they can
   bool mass_gives_frequency = false;  ///< w_n is held at sqrt(k / m) of a stated m; the covariance holds its error
-  /// Of slips and ring-down together, at which w_n and zeta are held; the covariance holds its errors.
+  /// Holds the motion of slips and ring-down together, at which w_n and zeta are held; the covariance includes its
+  /// errors.
   std::optional<FreeMotion> motion{};
   std::string law_doubt{};  ///< why the friction law was not the data's choice; empty: it was
 };

@@ -24,7 +24,7 @@ double relative_mass_error(const Conditions& conditions) {
   return error_kg ? *error_kg / *conditions.mass_kg : thresholds::kUsualMassError;
 }
 
-/// What the coordinates move by where w_n is held elsewhere; empty where the fit has no solution there.
+/// Returns the move of the coordinates per unit of ln w_n, which is held; empty where the fit has no solution there.
 std::optional<Coordinates> by_log_frequency(const DampedFit& fit) {
   BlockFit other = fit.blocks;
   other.parameters.values(kLogFrequency) += kStep;

@@ -80,7 +80,7 @@ class SweepFitter {
     return boost::math::cdf(boost::math::complement(by_chance, ratio));
   }
 
-  /// From the medians of the recordings' own fits.
+  /// Sets the starting values to the medians of the recordings' own fits.
   void set_start(SweepSolution& solution) const {
     Coordinates first = Coordinates::Zero();
     for (const Coordinate i : {kLogStiffness, kLogFrequency, kDamping}) {
@@ -153,7 +153,7 @@ class SweepFitter {
     return free;
   }
 
-  /// With k that goes with the speed, where one k of all does not explain the recordings.
+  /// Returns the fit with k that depends on the speed; empty where one k of all recordings explains them.
   [[nodiscard]] std::optional<SweepSolution> with_growing_stiffness(const SweepSolution& same) const {
     const bool may_grow = !fixed_.stiffness_N_per_m && same.can_show_trend(thresholds::kStiffnessRecordings);
     if (!may_grow) return std::nullopt;
@@ -162,7 +162,7 @@ class SweepFitter {
     return with_shares({FrictionLaw::Coulomb, true}, {true, true});
   }
 
-  /// Of so much more misfit by what the recordings share.
+  /// Returns the probability of so much more misfit by what the recordings share.
   [[nodiscard]] double chance_of_sharing(const SweepSolution& shared, const SweepSolution& free) const {
     const Sharing& sharing = shared.sweep.sharing;
     const double steady = sharing.level ? static_cast<double>(data_.steady.size()) : 0.0;
@@ -171,7 +171,7 @@ class SweepFitter {
     return chance(shared.chi2 - free.chi2, constraints, free);
   }
 
-  /// From a shared solution on with nothing shared.
+  /// Returns the solution with nothing shared, started from a shared one.
   [[nodiscard]] static std::optional<SweepSolution> released(const SweepSolution& shared) {
     SweepSolution free = shared;
     free.sweep.sharing = {};

@@ -11,7 +11,8 @@ namespace slipfit::fit {
 struct SweepFits {
   SweepSolution velocity;                ///< near enough to its minimum to compare sums of squares: see settled
   std::optional<SweepSolution> coulomb;  ///< sharing at most what velocity does; empty: it has no minimum
-  /// As coulomb, with k that goes with the speed; empty where one k of all explains the recordings, or too few show it.
+  /// Holds the same fit as `coulomb`, with k that depends on the speed; empty where one k of all explains the
+  /// recordings, or too few show it.
   std::optional<SweepSolution> growing{};
   double coulomb_chi2 = 0.0;      ///< with the shares of velocity
   double p_value = 0.0;           ///< that Coulomb friction with these gives such a difference by chance

@@ -19,11 +19,11 @@ struct SweepSolution {
 
   [[nodiscard]] Problem problem() const { return {recordings, sweep}; }
   [[nodiscard]] std::size_t cycles() const;
-  /// What the recordings share; the other coordinates are 0.
+  /// Returns the coordinates that the recordings share; the others are 0.
   [[nodiscard]] Coordinates shared() const;
   /// A recording with the time of the sensor that is free; null where none is.
   [[nodiscard]] const BlockFit* with_sensor_time() const;
-  /// Of the recordings' speeds, in their order.
+  /// Returns the speeds of the recordings, in their order.
   [[nodiscard]] std::vector<double> speeds_m_per_s() const;
   /// At least `fewest` recordings at speeds that are far enough apart to show what goes with the speed.
   [[nodiscard]] bool can_show_trend(std::size_t fewest = thresholds::kTrendRecordings) const;
@@ -35,7 +35,7 @@ struct SweepSolution {
 /// SolveOptions::tolerance of a sweep's last step.
 inline constexpr double kSweepFinal = 1e-4;
 
-/// From the solution's parameters; returns chi2, infinity where they are outside the model.
+/// Solves from the solution's parameters on. Returns chi2, infinity where they are outside the model.
 double solve(SweepSolution& solution, const Held& held, int max_iterations, double tolerance);
 
 /// The solution, moved to its minimum with these coordinates held; empty where it has none.

@@ -200,7 +200,7 @@ double TermFitter::gain_on_all(double better, double other) const {
   return gain_on(*cycles_, better, other);
 }
 
-/// What scatters within the bins of the sticks is in neither sum.
+/// Neither sum contains the scatter within the bins of the sticks.
 double TermFitter::gain_on(const CycleSet& cycles, double better, double other) const {
   const double independent = effective_samples(plain_) * residuals_of(cycles.cycles()) / plain_.uncertainty.samples;
   return independent * std::log(other / better);
@@ -286,7 +286,7 @@ std::vector<TermFitter::Start> TermFitter::starts_of(Terms terms) const {
   return starts;
 }
 
-/// From what the clock resolves to the longest.
+/// Returns starting lengths from the shortest that the clock resolves to the longest, in m.
 std::vector<double> TermFitter::lengths_of_rise() const {
   const double speed = plain_.blocks.scales().speed_m_per_s;
   const double stick_m = speed * median_stick_s(plain_.blocks);

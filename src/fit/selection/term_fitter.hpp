@@ -36,8 +36,8 @@ struct Minima {
 /// them compare the terms, and only what they do not rule out is fitted to all cycles.
 class TermFitter {
  public:
-  /// Cuts the cycles of `plain` wide enough for every term, and `beyond_s` wider. Empty where too few cycles are that
-  /// wide. `input` and `plain` must outlive the fitter.
+  /// Cuts the cycles of `plain` wide enough for every term, and `beyond_s` wider. The result is empty where too few
+  /// cycles are that wide. `input` and `plain` must outlive the fitter.
   static std::optional<TermFitter> create(const FitInput& input, const DampedFit& plain, double beyond_s = 0.0);
 
   /// Minima of the cycles that compare the terms. A minimum without a slip distance, without an average or without
@@ -90,7 +90,7 @@ class TermFitter {
   [[nodiscard]] double gain_on(const CycleSet& cycles, double better, double other) const;
   [[nodiscard]] std::vector<double> lengths_of_rise() const;
   [[nodiscard]] std::optional<Minimum> drafted(Terms terms, const Start& start) const;
-  /// Of starts that share an average only the best one: it is what separates minima.
+  /// Returns the drafts, of starts that share an average only the best one: the average is what separates minima.
   [[nodiscard]] std::vector<Minimum> drafts_of(Terms terms) const;
   [[nodiscard]] Minimum descended(Minimum draft) const;
   /// The solution near another fit, as far as comparing terms needs it. Empty where a slip has none.

@@ -14,7 +14,7 @@
 namespace slipfit::fit {
 namespace {
 
-/// Every tier has the same onset and force for each cycle: only the shared parameters tell them apart.
+/// Returns AICc. Every tier has the same onset and force for each cycle: only the shared parameters distinguish them.
 double aicc(double rms, double effective, double parameters) {
   const double room = std::max(1.0, effective - parameters - 1.0);
   return effective * std::log(rms * rms) + 2.0 * parameters * effective / room;

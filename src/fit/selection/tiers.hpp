@@ -24,7 +24,7 @@ bool hides_shape(double noise_rms, const DampedFit& fit);
 
 SawtoothFit fit_sawtooth(const DampedFit& damped);
 
-/// With rms and AICc on so many independent samples.
+/// Returns the candidate with rms and AICc on so many independent samples.
 Candidate candidate_of(const DampedFit& fit, Tier tier, std::size_t parameters, double effective);
 
 /// What the choice of a tier rests on. Where the free damping ratio was refused (DampedFit::refused_damping), `damped`
@@ -36,7 +36,7 @@ struct TierFits {
 
   /// zeta was held by the user.
   [[nodiscard]] bool damping_held() const { return damped.held[kDamping] && !damped.refused_damping; }
-  /// Neither a refused zeta nor what a ring-down tells.
+  /// Returns what the user held: neither a refused zeta nor the w_n and zeta of a ring-down.
   [[nodiscard]] Held held_by_user() const {
     Held held = damped.held;
     held[kDamping] = damping_held() && !damped.motion;
@@ -49,7 +49,7 @@ struct TierFits {
   }
 };
 
-/// How far the slip is resolved: by samples, by the likelihood of zeta, by the misfit of its shape.
+/// Says how far the slip is resolved: by samples, by the likelihood of zeta, by the misfit of its shape.
 struct Resolution {
   double samples_per_slip = 0.0;
   bool slip_resolved = false;     ///< w_n and F_s - F_k can be read from the slip

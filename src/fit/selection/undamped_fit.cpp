@@ -17,7 +17,7 @@ bool is_lost(double loose_chi2, const DampedFit& damped) {
   return effective_samples(damped) * std::log1p(worse) > kLost;
 }
 
-/// The damped fit does not rule zeta = 0 out, and its cycles stand where the undamped fit has them.
+/// Returns whether the damped fit does not rule zeta = 0 out, and its cycles are where the undamped fit has them.
 bool is_near(const DampedFit& damped) {
   constexpr double kNear = 2.0;
   return std::abs(damped.blocks.parameters.values(kDamping)) < kNear * damping_error(damped);

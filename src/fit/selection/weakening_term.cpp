@@ -27,7 +27,7 @@ double slip_distance_m(const DampedFit& fit) {
   return fit.blocks.scales().slip_distance_m * std::pow(fit.blocks.parameters.values(kSlipDistance), 2);
 }
 
-/// Why it cannot even be tried; empty: it can.
+/// Returns why the term cannot even be tried; empty where it can.
 std::string hindrance(const FitInput& input, const DampedFit& coulomb) {
   const double step_s = input.recording.sample_interval_s();
   const double samples = median_slip_s(coulomb.blocks) / step_s;
@@ -143,8 +143,8 @@ bool has_slips_of_the_model(const DampedFit& fit) {
          difference < (1.0 + kRoom) * sawtooth.drop;
 }
 
-/// What a fit of both says for and against it beside `single`, the fit with one of the two. `before`: stacked residual
-/// of `single`.
+/// Returns what a fit of both says for and against it, compared with `single`, the fit with one of the two. `before` is
+/// the stacked residual of `single`.
 Candidate judged_both(const Both& both, const DampedFit& single, double before) {
   const DampedFit& fit = both.fit;
   Candidate candidate =
@@ -164,7 +164,7 @@ WeakeningTrial with_both(WeakeningTrial trial, const FitInput& input, const Term
   if (!both) return trial;
   Candidate candidate = judged_both(*both, single, before.size);
   if (both->is_sure && candidate.chosen) return {std::move(both->fit), std::move(candidate), {}, {}, std::nullopt};
-  // A stated mass tells w_n, which the rival does not know of.
+  // A stated mass determines w_n, which the rival does not know of.
   if (!coulomb.mass_gives_frequency && both->gain > -thresholds::kTierPrice) {
     for (const DampedFit* rival : {&both->fit, both->other ? &*both->other : nullptr}) {
       if (rival == nullptr || !has_slips_of_the_model(*rival)) continue;
