@@ -13,7 +13,7 @@ _REQUIRES = [] if _HAS_CORE or _HAS_CLASSIC else ["scikit-build-core>=0.10"]
 
 
 def _backend():
-    """The hooks of PEP 517. The name of the one that was chosen is printed, so that a log tells which it was."""
+    """Returns the module with the hooks of PEP 517, and prints its name, so that a log shows which one made the wheel."""
     if _HAS_CORE:
         from scikit_build_core import build
     elif _HAS_CLASSIC:

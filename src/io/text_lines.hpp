@@ -26,9 +26,9 @@ class ParsedLines {
   ParsedLines& operator=(const ParsedLines&) = delete;
   ~ParsedLines();
 
-  /// As TextLines::next.
+  /// Returns the next line, as TextLines::next does.
   const char* next();
-  /// Of the latest line, from 1.
+  /// Returns the number of the latest line, counted from 1.
   [[nodiscard]] unsigned number() const;
 
  private:

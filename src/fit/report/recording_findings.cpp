@@ -182,8 +182,7 @@ std::string doubt_of_fall(const Conditions& conditions, const DampedFit& fit, co
   const bool coloured = residual.whiteness_p && *residual.whiteness_p < thresholds::kColouredChance;
   const bool large = residual.reduced_chi2 && *residual.reduced_chi2 > thresholds::kLargeChi2;
   if (!large || !coloured || fit.mass_gives_frequency || fit.motion) return {};
-  const double average_s = fit.blocks.sensor().average_s;
-  if (std::exp(fit.blocks.parameters.values(kLogFrequency)) * average_s > thresholds::kHidingAverage) {
+  if (hides_damping(fit.blocks)) {
     const std::string remedy = conditions.mass_kg ? stated_mass() : std::string("state the mass with --mass");
     return "the sensor averages over most of the slip, and correlated residuals hide w_n and zeta: " + remedy;
   }

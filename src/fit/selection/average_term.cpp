@@ -32,20 +32,12 @@ bool may_be_averaged(const FitInput& input, const DampedFit& plain) {
   return plain.misfit || plain.refused_damping || !is_damped || (seen && seen->exceeds_step(step_s));
 }
 
-/// Slips behind it that are damped look like longer ones that are not.
-bool hides_damping(double average_s, double log_omega) {
-  return std::exp(log_omega) * average_s > thresholds::kHidingAverage;
-}
-bool hides_damping(const BlockFit& fit) {
-  return hides_damping(fit.sensor().average_s, fit.parameters.values(kLogFrequency));
-}
-
 bool is_shaped(const std::optional<SegmentMisfit>& misfit) {
   return !misfit || misfit->chance > thresholds::kMisfitChance;
 }
 
-/// The slips that are left behind the average are those of the model as far as so few cycles show, and longer than a
-/// step of the clock.
+/// Returns whether the slips without their averaging are those of the model, as far as few cycles show, and longer than
+/// a step of the clock.
 bool follows_slips(const DampedFit& fit, double sample_interval_s) {
   const double negative = -thresholds::kNegativeSigmas * damping_error(fit);
   return is_shaped(fit.misfit) && !fit.refused_damping && fit.blocks.parameters.values(kDamping) > negative &&
@@ -75,14 +67,10 @@ double gain_by_mass(const FitInput& input, const DampedFit& fit, const DampedFit
   return agrees ? std::pow(sigmas_of_stated_mass(conditions, plain), 2) - sigmas * sigmas : 0.0;
 }
 
-/// The same of samples and mass together.
-double likelihood_gain(const FitInput& input, const DampedFit& fit, const DampedFit& plain) {
-  return gain_on_same_samples(fit, plain) + 2.0 + gain_by_mass(input, fit, plain);
-}
-
 /// The fit of all cycles that explains them best, and another average that does so as well.
 struct Found {
   std::optional<DampedFit> best;
+  double gain_on_samples = 0.0;  ///< twice the logarithm of how much more likely `best` makes them than the plain fit
   std::optional<DampedFit> other;
 };
 Found best_fit(const FitInput& input, const TermFitter& fitter, const DampedFit& plain,
@@ -91,16 +79,20 @@ Found best_fit(const FitInput& input, const TermFitter& fitter, const DampedFit&
   Found found;
   for (const Minimum& minimum : minima) {
     std::optional<DampedFit> next = fitter.fit(minimum.blocks);
-    const bool is_better = next && follows_slips(*next, sample_interval_s) &&
-                           likelihood_gain(input, *next, plain) > -thresholds::kNotRuledOut;
-    if (!is_better) continue;
+    if (!next || !follows_slips(*next, sample_interval_s)) continue;
+    double gain_on_samples = gain_on_same_samples(*next, plain) + 2.0;  // without the price of the parameter
+    if (!(gain_on_samples + gain_by_mass(input, *next, plain) > -thresholds::kNotRuledOut)) continue;
     next = with_average_error(*std::move(next));
     if (!found.best) {
       found.best = std::move(next);
+      found.gain_on_samples = gain_on_samples;
       continue;
     }
     const double gain = gain_of(*next, *found.best);
-    if (gain > 0.0) std::swap(found.best, next);
+    if (gain > 0.0) {
+      std::swap(found.best, next);
+      std::swap(found.gain_on_samples, gain_on_samples);
+    }
     const double apart_s = std::abs(next->average->seconds - found.best->average->seconds);
     const bool is_another = apart_s > thresholds::kSureTerm * found.best->average->standard_error_s;
     if (is_another && std::abs(gain) < thresholds::kTierPrice) found.other = std::move(next);
@@ -133,11 +125,11 @@ AverageTrial try_average(const FitInput& input, const DampedFit& plain) {
            !(hides_damping(minimum.blocks) && fitter->gain_on_some(sum, without) > -2.0 * thresholds::kNotRuledOut);
   });
   if (minima.empty()) return {};
-  auto [fit, other] = best_fit(input, *fitter, plain, minima);
+  auto [fit, gain_on_samples, other] = best_fit(input, *fitter, plain, minima);
   if (!fit || !(fit->average->seconds < median_stick_s(fit->blocks))) return {};
-  const bool is_taken =
-      likelihood_gain(input, *fit, plain) > thresholds::kTierPrice &&
-      (gain_by_mass(input, *fit, plain) > thresholds::kTierPrice || rules_out_lag(input, plain, fit->blocks));
+  const double by_mass = gain_by_mass(input, *fit, plain);
+  const bool is_taken = gain_on_samples + by_mass > thresholds::kTierPrice &&
+                        (by_mass > thresholds::kTierPrice || rules_out_lag(input, plain, fit->blocks));
   if (!is_taken && !hides_damping(fit->blocks)) return {};
   if (!is_taken) return {std::nullopt, std::move(fit)};
   if (!tells_slips(*fit)) {
@@ -148,6 +140,10 @@ AverageTrial try_average(const FitInput& input, const DampedFit& plain) {
 }
 
 }  // namespace
+
+bool hides_damping(const BlockFit& fit) {
+  return std::exp(fit.parameters.values(kLogFrequency)) * fit.sensor().average_s > thresholds::kHidingAverage;
+}
 
 bool tells_average(const FittedAverage& average) {
   return average.seconds > 2.0 * thresholds::kSureTerm * average.standard_error_s;

@@ -7,6 +7,10 @@
 
 namespace slipfit::fit {
 
+/// Returns whether the average of the fit is so long (thresholds::kHidingAverage) that damped slips behind it look like
+/// longer ones without damping.
+bool hides_damping(const BlockFit& fit);
+
 /// Its variance, which is what rounds the slips, is more than kSureTerm of its errors: T_b itself, a root, is twice as
 /// many of its own.
 bool tells_average(const FittedAverage& average);

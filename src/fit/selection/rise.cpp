@@ -7,6 +7,7 @@
 #include "core/fit_thresholds.hpp"
 #include "fit/problem/solve.hpp"
 #include "fit/selection/finish.hpp"
+#include "fit/selection/tiers.hpp"
 
 namespace slipfit::fit {
 namespace {
@@ -44,10 +45,6 @@ std::optional<DampedFit> with_free_length(const Quality& quality, DampedFit fit)
 }
 
 }  // namespace
-
-double error_of(const DampedFit& fit, Coordinate coordinate) {
-  return std::sqrt(std::max(0.0, fit.uncertainty.covariance(coordinate, coordinate)));
-}
 
 double rise_length_m(const DampedFit& fit) {
   return std::exp(fit.blocks.parameters.values(kReloadLength));

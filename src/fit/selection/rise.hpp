@@ -23,9 +23,6 @@ BlockFit with_free_rise(const BlockFit& fit);
 /// The force rises after slips, or has no rise there.
 bool rises(const BlockFit& fit);
 
-/// Standard error of a coordinate.
-double error_of(const DampedFit& fit, Coordinate coordinate);
-
 /// Length of the rise of a fit that has one.
 double rise_length_m(const DampedFit& fit);
 

@@ -10,7 +10,7 @@ namespace slipfit::fit {
 /// rise is known and explains it. Before `finish_fit`.
 std::optional<DampedFit> draft_with_rise(const FitInput& input, const GiveUp& give_up = {});
 
-/// `plain` with a rise over a given length. Empty where the force falls after a slip in place of rising.
+/// Fits all cycles of `plain` with a rise of this length. Empty where the force then falls after a slip.
 std::optional<DampedFit> draft_with_rise_over(double length_m, const FitInput& input, const DampedFit& plain);
 
 }  // namespace slipfit::fit

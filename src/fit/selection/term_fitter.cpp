@@ -88,7 +88,8 @@ std::optional<BlockFit> solved_from(BlockFit blocks, const SolveOptions& options
   return is_solved ? std::optional(std::move(blocks)) : std::nullopt;
 }
 
-/// The solution as far as comparing terms needs it, its rise after the slips that come out.
+/// Solves to the accuracy that comparing terms needs. A rise after slips is moved to the slips of the solution. Empty
+/// where a slip has no solution.
 std::optional<BlockFit> roughly_settled(BlockFit start, const Held& held, double tolerance) {
   const SolveOptions options{held, false, true, kCompareIterations, tolerance, true};
   std::optional<BlockFit> blocks = solved_from(std::move(start), options);
@@ -116,19 +117,18 @@ bool is_negative(const DampedFit& fit) {
 }  // namespace
 
 std::optional<TermFitter> TermFitter::create(const FitInput& input, const DampedFit& plain, double beyond_s) {
-  const double half_width_s = half_width_of(plain.blocks, std::sqrt(squared_fall_s2(plain.blocks))) + beyond_s;
-  TermFitter fitter(input, plain, half_width_s);
+  TermFitter fitter(input, plain, beyond_s);
   return fitter.cycles_ ? std::optional(std::move(fitter)) : std::nullopt;
 }
 
-TermFitter::TermFitter(const FitInput& input, const DampedFit& plain, double half_width_s)
+TermFitter::TermFitter(const FitInput& input, const DampedFit& plain, double beyond_s)
     : input_(input),
       plain_(plain),
       held_(held_of(input.held)),
       fall_s2_(squared_fall_s2(plain.blocks)),
-      half_width_s_(half_width_s),
+      half_width_s_(half_width_of(plain.blocks, std::sqrt(fall_s2_)) + beyond_s),
       hum_(hum_of(input.recording, plain.blocks)),
-      cycles_(set_of(cycles_without(plain.excluded, half_width_s))) {
+      cycles_(set_of(cycles_without(plain.excluded, half_width_s_))) {
   if (!cycles_) return;
   const std::vector<CycleData>& all = cycles_->cycles();
   few_ = set_of(some_of(all, kFewCycles));
@@ -148,14 +148,11 @@ Minima TermFitter::minima(Terms terms, bool is_asked) const {
   Minima minima;
   for (std::size_t i = 0; i < drafts.size(); ++i) {
     if (i > 0 && !is_another(drafts[i])) continue;
-    std::optional<BlockFit> some = solved(enough_, drafts[i].blocks);
-    const bool has_slips_of_its_own = some && resting_share(*some) >= thresholds::kFewRest &&
-                                      some->sensor().average_s + median_slip_s(*some) < median_period_s(plain_.blocks);
-    if (!has_slips_of_its_own && !(is_asked && some)) {
+    std::optional<Minimum> some = near(drafts[i].blocks);
+    if (!some || !(is_asked || has_slips_of_its_own(some->blocks))) {
       minima.is_complete = false;
-    } else if (is_asked || has_term(*some)) {
-      const double sum = sum_of_squares(*some);
-      minima.found.push_back({*std::move(some), sum});
+    } else if (is_asked || has_term(some->blocks)) {
+      minima.found.push_back(*std::move(some));
     }
     if (i > 0) break;
   }
@@ -210,7 +207,7 @@ DampedFit TermFitter::rival_of(const Minimum& minimum) const {
   DampedFit rival{minimum.blocks, false, held_, std::nullopt, half_width_s_, plain_.excluded};
   rival.uncertainty = estimate_uncertainty(rival.blocks, {held_, false});
   rival.uncertainty.covariance *= residuals_of(enough_->cycles()) / residuals_of(cycles_->cycles());
-  return rival.blocks.solves_for(kSensorTime) ? with_average_error(std::move(rival)) : rival;
+  return with_average_error(std::move(rival));
 }
 
 std::optional<DampedFit> TermFitter::draft(const BlockFit& near) const {
@@ -363,6 +360,11 @@ std::optional<BlockFit> TermFitter::solved(const Cycles& cycles, const BlockFit&
   blocks.parameters.level = near.parameters.level;
   if (!solve_own(blocks)) return std::nullopt;
   return roughly_settled(std::move(blocks), held_, kRoughTolerance);
+}
+
+bool TermFitter::has_slips_of_its_own(const BlockFit& fit) const {
+  return resting_share(fit) >= thresholds::kFewRest &&
+         fit.sensor().average_s + median_slip_s(fit) < median_period_s(plain_.blocks);
 }
 
 /// Waves and slips of Coulomb friction have a minimum at D_c = 0, and an average within a step of the clock cannot be

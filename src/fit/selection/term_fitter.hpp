@@ -13,7 +13,7 @@ namespace slipfit::fit {
 /// The terms that a fit may have besides those of every fit.
 struct Terms {
   bool average = false;    ///< an average of the sensor, its time W a parameter (docs/model.md section 7)
-  bool weakening = false;  ///< friction that weakens over a slip distance D_c in place of Coulomb friction (section 9)
+  bool weakening = false;  ///< friction that weakens over a slip distance D_c, instead of Coulomb friction (section 9)
   bool rise = false;       ///< a rise of the force after slips (section 10), where the plain fit has none
 };
 
@@ -49,8 +49,8 @@ class TermFitter {
   /// The fit of these cycles with the terms of `fit`, another fit of the recording. Empty where a slip has no solution.
   [[nodiscard]] std::optional<Minimum> near(const BlockFit& fit) const;
 
-  /// The least sum of squares with a lag of first order in place of the average of a minimum, from two starts. Infinity
-  /// where there is no solution.
+  /// Replaces the average of a minimum by a lag of first order and returns the least sum of squares from two starts;
+  /// infinity where there is no solution.
   [[nodiscard]] double least_with_lag(const Minimum& near) const;
 
   /// Twice the logarithm of the likelihood ratio of two sums of squares of these cycles, each at its best noise. Above
@@ -69,7 +69,7 @@ class TermFitter {
   [[nodiscard]] std::optional<DampedFit> fit(const BlockFit& near) const;
 
  private:
-  TermFitter(const FitInput& input, const DampedFit& plain, double half_width_s);
+  TermFitter(const FitInput& input, const DampedFit& plain, double beyond_s);
 
   struct Start {
     double share_of_fall = 0.0;  ///< that the square of an average's time takes of the square of the fall's
@@ -93,8 +93,10 @@ class TermFitter {
   /// Returns the drafts, of starts that share an average only the best one: the average is what separates minima.
   [[nodiscard]] std::vector<Minimum> drafts_of(Terms terms) const;
   [[nodiscard]] Minimum descended(Minimum draft) const;
-  /// The solution near another fit, as far as comparing terms needs it. Empty where a slip has none.
+  /// Solves near another fit, to the accuracy that comparing terms needs. Empty where a slip has no solution.
   [[nodiscard]] std::optional<BlockFit> solved(const Cycles& cycles, const BlockFit& near) const;
+  /// Returns whether the slips come to rest, and the average is shorter than a stick.
+  [[nodiscard]] bool has_slips_of_its_own(const BlockFit& fit) const;
   [[nodiscard]] bool has_term(const BlockFit& fit) const;
   [[nodiscard]] BlockFit with_poorest_level(BlockFit wandering) const;
   [[nodiscard]] std::optional<DampedFit> without_outliers(const BlockFit& rough) const;

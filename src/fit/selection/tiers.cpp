@@ -40,8 +40,12 @@ std::string against(const Candidate& candidate, const Candidate& other) {
 
 }  // namespace
 
+double error_of(const DampedFit& fit, Coordinate coordinate) {
+  return std::sqrt(std::max(0.0, fit.uncertainty.covariance(coordinate, coordinate)));
+}
+
 double damping_error(const DampedFit& fit) {
-  return std::sqrt(std::max(0.0, fit.uncertainty.covariance(kDamping, kDamping)));
+  return error_of(fit, kDamping);
 }
 
 double sigmas_of_distance(const DampedFit& fit) {

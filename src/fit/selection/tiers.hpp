@@ -57,6 +57,9 @@ struct Resolution {
   std::string reason;             ///< why not, or empty
 };
 
+/// Returns the standard error of a coordinate, in its own units; 0 where it is held.
+double error_of(const DampedFit& fit, Coordinate coordinate);
+
 /// Standard error of zeta.
 double damping_error(const DampedFit& fit);
 
