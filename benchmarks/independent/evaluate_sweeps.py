@@ -8,7 +8,7 @@ bands: spacings at 2 and 4 times the fastest recording inside their 95 % interva
 without any warning of the fit. V_c: inside its interval, of those with one; bracket: told as a bracket or a bound that holds, of
 those told so. fit: sweeps that could be predicted from. warned: with any warning. named: warnings `recording_disagrees` that name
 the wrong recording, of the sweeps that have one; alarm: that name one where none is wrong. se: median relative standard error of k
-and half-width of F_s - F_k. k, w_n, zeta, dF: inside its interval, of the sweeps that call it identified; B, t_c (rate and cut-off of ageing): of all that give one. audit: pairs of the recordings' audits that contradict
+and half-width of F_s - F_k. k, w_n, zeta, dF, m: inside its interval, of the sweeps that call it identified; B, t_c (rate and cut-off of ageing): of all that give one. audit: pairs of the recordings' audits that contradict
 themselves, of all.
 """
 import collections
@@ -20,7 +20,7 @@ import numpy as np
 
 import command_line
 
-NAMES = ("stiffness_N_per_m", "natural_frequency_rad_per_s", "damping_ratio", "friction_difference_N")
+NAMES = ("stiffness_N_per_m", "natural_frequency_rad_per_s", "damping_ratio", "friction_difference_N", "mass_kg")
 AGEING = ("ageing_N", "ageing_time_s")
 
 
@@ -86,7 +86,8 @@ def scored(result, truth):
         p = parameters.get(name) or {}
         if p.get("status") == "identified" or (name in AGEING and p.get("ci95")):
             row["identified " + name] = 1
-            row["held " + name] = int(p["ci95"][0] <= true <= p["ci95"][1])
+            least, most = true if isinstance(true, list) else (true, true)
+            row["held " + name] = int(p["ci95"][0] <= most and least <= p["ci95"][1])
     errors = {}
     for short, name in (("k", "stiffness_N_per_m"), ("dF", "friction_difference_N")):
         p = parameters.get(name) or {}
@@ -121,7 +122,7 @@ def main():
         if row["wrong"] or row["alarm"] or (truth["bad"] is not None and not row["named"]) or not row["fit"]:
             codes = [w["code"] for w in (result.get("fit") or {}).get("warnings", [])]
             misses.append(f"  {truth['id']:22} wrong {row['wrong']} alarm {row['alarm']} named {row['named']} bad {truth['bad']} {codes} {result['error'][:160]}")
-    print(f"{'family':16} fit   bands    half none wrong silent     V_c   bracket warned named alarm   se k %  se dF %    k      w_n    zeta    dF      B      t_c   audit")
+    print(f"{'family':16} fit   bands    half none wrong silent     V_c   bracket warned named alarm   se k %  se dF %    k      w_n    zeta    dF      m       B      t_c   audit")
     for family, rows in families.items():
         print(line(family, rows))
     print(line("all", [row for rows in families.values() for row in rows]))

@@ -236,6 +236,16 @@ def loose(rng):
     return sweep
 
 
+def relaxing(rng):
+    """A standard linear solid in place of the spring; its time is one of the contact, whatever the speed."""
+    sweep = draw(rng, 5, rng.uniform(5, 20))
+    first, middle = sweep.runs[0], sweep.runs[2]
+    first.model.relax_share = np.exp(rng.uniform(np.log(0.05), np.log(0.7)))
+    period = 1.1 * np.pi / first.model.omega + stick_s(first.model, first.drop, middle.speed)
+    first.model.relax_time = 10 ** rng.uniform(-2, 1) * period
+    return sweep
+
+
 def averaging(rng):
     sweep = draw(rng, 4, rng.uniform(4, 8))
     width = int(rng.integers(3, 9))
@@ -420,6 +430,10 @@ def parameters_of(sweep, sound):
     """What all recordings share, k and w_n at the mean of ln V; F_s - F_k(0+) where they do, by the manifest's mean load."""
     model = sweep.model_at(np.exp(np.mean([np.log(r.speed) for r in sweep.runs]))) if sweep.model_at else sound.model
     truth = {"stiffness_N_per_m": model.stiffness, "natural_frequency_rad_per_s": model.omega, "damping_ratio": model.damping_ratio}
+    truth["mass_kg"] = model.stiffness / model.omega**2
+    if model.relax_share > 0:  # k between the relaxed and the instantaneous one is right; what relaxes damps, too
+        truth["stiffness_N_per_m"] = [model.stiffness * (1 - model.relax_share), model.stiffness]
+        del truth["damping_ratio"], truth["natural_frequency_rad_per_s"]
     if model.stribeck_speed > 0 and model.velocity_law == 0:
         truth["alpha_s_per_m"] = -1.0 / model.stribeck_speed
     if model.ageing_time > 0 and model.ageing_law == 0:
@@ -434,4 +448,4 @@ def parameters_of(sweep, sound):
 
 FAMILIES = [coulomb5, coulomb3, exponential, exponential_strong, age_ln3, age_ln4, age_ln6, age_cutoff, age_wide, age_terms, age_power, age_saturating, age_exponential, log_falling,
             log_rising, hyperbolic, two, two_coulomb, narrow, trended, grown, grown_loosely, loose, averaging, rings, rings_otherwise, drifting, zeros, wrong_loads,
-            adhesion, undersampled, near_critical, bad_speed, bad_unit, other_material, one_file_twice, swapped, level_only]
+            adhesion, undersampled, near_critical, relaxing, bad_speed, bad_unit, other_material, one_file_twice, swapped, level_only]

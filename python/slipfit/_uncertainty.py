@@ -14,7 +14,8 @@ if TYPE_CHECKING:
 
 _NORMAL_QUANTILE = 1.959963984540054  # of 97.5 %
 # The fit solves for their logarithms: docs/formats.md, `correlation`.
-_IN_LOGARITHM = {"stiffness_N_per_m", "natural_frequency_rad_per_s", "friction_difference_N", "reload_length_m"}
+_IN_LOGARITHM = {"stiffness_N_per_m", "natural_frequency_rad_per_s", "friction_difference_N", "reload_length_m",
+                 "relaxation_time_s"}
 
 
 def _correlation(name: str, document: Mapping[str, Any]) -> Dict[str, Any]:

@@ -107,6 +107,7 @@ std::vector<Apart> from_middle(const std::vector<FittedValue>& values, double mi
 
 std::optional<Apart> by_stiffness(std::span<const SweepEntry> entries, const std::vector<Analysis>& analyses,
                                   const SweepFit& fit) {
+  if (fit.result.find(ParameterId::Relaxation) != nullptr) return std::nullopt;  // k of a stick goes with its duration
   std::vector<FittedValue> values = fitted_values(ParameterId::Stiffness, analyses, fit);
   if (values.empty()) return std::nullopt;
   for (FittedValue& own : values) {

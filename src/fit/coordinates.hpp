@@ -22,6 +22,8 @@ enum Coordinate : Eigen::Index {
   kFrictionSlope,
   kFrictionRate,       ///< a = alpha v_c
   kSlipDistance,       ///< sqrt(D_c / Units::slip_distance_m): the limit of Coulomb friction is reached as it goes to 0
+  kRelaxation,         ///< s, the share of k that relaxes
+  kRelaxationTime,     ///< ln (t_r / s), of the time in which it relaxes
   kReloadForce,        ///< A / Units::force, of the rise after a slip
   kReloadLength,       ///< ln (l / m), of the path over which it rises
   kStiffnessExponent,  ///< d ln k / d ln V, of a sweep; k and w_n are those at Units::speed_m_per_s

@@ -40,7 +40,9 @@ constexpr std::array kTable{
     ParameterInfo{Id::SensorAverage, "sensor_average_s", "sensor averaging time T_b", "s", kNotNegative, 0.25},
     ParameterInfo{Id::SlipDistance, "slip_distance_m", "slip-weakening distance D_c", "m", kNotNegative, 0.25},
     ParameterInfo{Id::ReloadForce, "reload_force_N", "force recovery after a slip, A", "N", kNotNegative, 0.25},
-    ParameterInfo{Id::ReloadLength, "reload_length_m", "recovery length l", "m", kNotNegative, 0.25}};
+    ParameterInfo{Id::ReloadLength, "reload_length_m", "recovery length l", "m", kNotNegative, 0.25},
+    ParameterInfo{Id::Relaxation, "relaxation", "share of k that relaxes", "", kShare, 0.25},
+    ParameterInfo{Id::RelaxationTime, "relaxation_time_s", "relaxation time t_r", "s", kNotNegative, 0.25}};
 
 }  // namespace
 

@@ -20,6 +20,7 @@ std::array<double, kModelValues> values_of(const ModelEstimate& model) {
   const SpeedDependence law = model.speed_dependence.value_or(SpeedDependence{});
   const Ageing ageing = model.ageing.value_or(Ageing{});
   const Reloading reloading = model.reloading.value_or(Reloading{});
+  const RelaxingSpring relaxing = model.relaxing.value_or(RelaxingSpring{});
   return {model.stiffness_N_per_m,
           model.natural_frequency_rad_per_s,
           model.damping_ratio,
@@ -30,7 +31,9 @@ std::array<double, kModelValues> values_of(const ModelEstimate& model) {
           ageing.cutoff_s,
           reloading.force_N,
           reloading.length_m,
-          model.stiffness_trend.value_or(StiffnessTrend{}).exponent};
+          model.stiffness_trend.value_or(StiffnessTrend{}).exponent,
+          relaxing.share,
+          relaxing.time_s};
 }
 
 double SpeedReach::distance_to(double speed_m_per_s) const {

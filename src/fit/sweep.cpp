@@ -17,6 +17,7 @@
 #include "fit/report/open_damping.hpp"
 #include "fit/report/trend_notes.hpp"
 #include "fit/selection/law_choice.hpp"
+#include "fit/selection/relaxation.hpp"
 #include "fit/selection/ring_down_fit.hpp"
 #include "fit/selection/sweep_solution.hpp"
 #include "signal/robust.hpp"
@@ -274,6 +275,7 @@ std::optional<SweepFit> fit_at_once(std::span<const SweepRecording> recordings, 
                                     const FitOptions& options, const std::optional<fit::FittedAverage>& known = {}) {
   SweepData data = fit::prepare_sweep(recordings, options, known);
   if (data.fitted.size() < 2) return std::nullopt;
+  data = fit::with_relaxation(std::move(data), recordings, options.held);
   if (options.tell_step) options.tell_step(fmt::format("fitting {} recordings together", data.fitted.size()));
   std::optional<fit::SweepFits> fits = fit::solve_sweep(data, options);
   if (!fits) return std::nullopt;

@@ -1,29 +1,15 @@
 #include "model/weakening.hpp"
 
 #include <algorithm>
-#include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <numbers>
 
+#include "model/root_between.hpp"
 #include "model/weakening_slide.hpp"
 
 namespace slipfit::model {
 namespace {
-
-/// The root of a function that changes its sign between `low` and `high`, to rounding.
-template <class F>
-double root_between(const F& f, double low, double high) {
-  const double at_low = f(low);
-  const double at_high = f(high);
-  if (at_low == 0.0) return low;
-  if (!(at_low * at_high < 0.0)) return high;
-  std::uintmax_t evaluations = 60;
-  const auto bracket = boost::math::tools::toms748_solve(f, low, high, at_low, at_high,
-                                                         boost::math::tools::eps_tolerance<double>(52), evaluations);
-  return 0.5 * (bracket.first + bracket.second);
-}
 
 /// When the speed comes back to 0 while the friction still falls: twice the mean of a swing, less where the swing
 /// grows.

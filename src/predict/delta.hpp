@@ -16,7 +16,7 @@
 namespace slipfit::predict {
 
 /// Numbers that know their derivatives with respect to (ln k, ln w_n, zeta, ln dF, b, alpha, rate and
-/// cut-off of ageing, A and ln l of reloading, exponent of k).
+/// cut-off of ageing, A and ln l of reloading, exponent of k, share and ln t_r of relaxation).
 using Jet = ceres::Jet<double, static_cast<int>(kModelValues)>;
 
 /// Holds the parameters of a model whose values are the first among what a number of this kind has derivatives with
@@ -24,7 +24,7 @@ using Jet = ceres::Jet<double, static_cast<int>(kModelValues)>;
 template <class AnyJet>
 struct ModelJetsOf {
   AnyJet stiffness_N_per_m, omega_rad_per_s, damping_ratio, difference_N, slope_N_s_per_m, alpha_s_per_m, ageing_N,
-      ageing_cutoff_s, reload_force_N, reload_length_m;
+      ageing_cutoff_s, reload_force_N, reload_length_m, relaxation, relaxation_time_s;
 
   explicit ModelJetsOf(const ModelEstimate& model)
       : stiffness_N_per_m(positive(model.stiffness_N_per_m, ParameterId::Stiffness)),
@@ -34,12 +34,15 @@ struct ModelJetsOf {
     const SpeedDependence law = model.speed_dependence.value_or(SpeedDependence{});
     const Ageing ageing = model.ageing.value_or(Ageing{});
     const Reloading reloading = model.reloading.value_or(Reloading{});
+    const RelaxingSpring relaxing = model.relaxing.value_or(RelaxingSpring{});
     slope_N_s_per_m = parameter(law.slope_N_s_per_m, ParameterId::FrictionSlope);
     alpha_s_per_m = parameter(law.alpha_s_per_m, ParameterId::Alpha);
     ageing_N = parameter(ageing.rate_N, ParameterId::Ageing);
     ageing_cutoff_s = parameter(ageing.cutoff_s, ParameterId::AgeingTime);
     reload_force_N = parameter(reloading.force_N, ParameterId::ReloadForce);
     reload_length_m = positive(reloading.length_m, ParameterId::ReloadLength);
+    relaxation = parameter(relaxing.share, ParameterId::Relaxation);
+    relaxation_time_s = positive(relaxing.time_s, ParameterId::RelaxationTime);
   }
 
  private:

@@ -70,6 +70,11 @@ std::optional<ModelEstimate> moved(const ModelEstimate& model, const VectorXd& s
     other.reloading->length_m *= std::exp(move(ParameterId::ReloadLength));
     if (!(other.reloading->force_N > 0.0)) return std::nullopt;
   }
+  if (other.relaxing) {
+    other.relaxing->share += move(ParameterId::Relaxation);
+    other.relaxing->time_s *= std::exp(move(ParameterId::RelaxationTime));
+    if (!(other.relaxing->share >= 0.0 && other.relaxing->share < 1.0)) return std::nullopt;
+  }
   if (other.stiffness_trend) other.stiffness_trend->exponent += move(ParameterId::StiffnessExponent);
   return is_model(other) ? std::optional(other) : std::nullopt;
 }

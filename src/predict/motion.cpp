@@ -16,6 +16,10 @@ namespace {
 
 CriticalPoint critical_point_by_law(const ModelEstimate& model) {
   const Propagation propagation(model);
+  if (model.ageing && model.relaxing) {
+    return CriticalPoint::unknown(
+        "the end of stick-slip is not computed for a spring that relaxes and static friction that ages");
+  }
   if (model.ageing) return ageing_critical_point(model, propagation);
   if (model.speed_dependence) return velocity_critical_point(model, propagation);
   return coulomb_critical_point(model, propagation);

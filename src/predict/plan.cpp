@@ -46,6 +46,10 @@ std::vector<NamedJet> parameters_of(const ModelEstimate& model) {
     all.push_back({"reload_force_N", p.reload_force_N});
     all.push_back({"reload_length_m", p.reload_length_m});
   }
+  if (model.relaxing) {
+    all.push_back({"relaxation", p.relaxation});
+    all.push_back({"relaxation_time_s", p.relaxation_time_s});
+  }
   return all;
 }
 

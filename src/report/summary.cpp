@@ -185,6 +185,7 @@ constexpr auto kTerms = std::to_array<std::pair<ParameterId, std::string_view>>(
     {{ParameterId::SensorAverage, "sensor averaging over"},
      {ParameterId::SlipDistance, "friction that weakens over a slip distance of"},
      {ParameterId::ReloadForce, "force recovery after a slip of"},
+     {ParameterId::Relaxation, "a spring that relaxes by a share of"},
      {ParameterId::StiffnessExponent, "k proportional to V to the power"}});
 
 bool is_headline(ParameterId id) {

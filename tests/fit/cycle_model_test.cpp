@@ -87,6 +87,8 @@ void check_derivatives(const Scales& scales, const LevelModel& level, double ste
     here(kStiffnessExponent) = 0.07;
     here(kSensorTime) = 0.6;
     here(kDifference) = 0.9;
+    here(kRelaxation) = 0.35;
+    here(kRelaxationTime) = std::log(0.4);
     here(kReloadForce) = 0.3;
     here(kReloadLength) = std::log(2e-3);
     std::vector<double> x;
@@ -197,6 +199,22 @@ TEST_CASE("residual derivatives of friction that weakens over a slip distance ag
   scales.slip_distance_m = scales.force / 60.0;
   // As under Coulomb friction.
   for (const LevelModel& level : {kPolynomial, kPerCycle, rising()}) check_derivatives(scales, level, 1e-6, 1e-6, 2e-3);
+}
+
+TEST_CASE("residual derivatives of a spring that relaxes agree with central differences") {
+  const ForceView view = GENERATE(ForceView::Spring, ForceView::Transmitted);
+  const double sensor_lag_s = GENERATE(0.0, 0.02);
+  const Average average = GENERATE(Average::None, Average::Stated, Average::Free, Average::BesideFreeLag);
+  Scales scales = averaged_by(average, example_scales(view, sensor_lag_s));
+  scales.relaxing = RelaxingCycles{3.3, 12.0, 10.0};
+  // As under Coulomb friction.
+  for (const LevelModel& level : {kPolynomial, kPerCycle, rising()}) {
+    check_derivatives(scales, level, 1e-6, 1e-6, 2e-3);
+    Scales in_sweep = scales;
+    in_sweep.population = example_population();
+    in_sweep.population->log_speed = 0.7;
+    check_derivatives(in_sweep, level, 1e-6, 1e-6, 2e-3);
+  }
 }
 
 TEST_CASE("friction that depends on the speed with slope 0 gives the residuals of Coulomb friction") {

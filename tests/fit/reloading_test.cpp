@@ -106,13 +106,15 @@ TEST_CASE("the stick that makes good a drop is shorter by the rise after the sli
 TEST_CASE("the rise after a slip is averaged exactly and knows its derivatives") {
   const double average_s = GENERATE(0.0, 0.02, 0.1);
   const fit::RiseAfterSlip rise = two_slips();
-  const auto instant = [&](double time_s) { return rise.at(1, time_s, {kLength_m, 0.0}).value; };
+  const auto instant = [&](double time_s) { return fit::RiseAroundSlip(rise, 1, kLength_m, 0.0).at(time_s).value; };
   for (const double time_s : {1.1, 1.17, 1.195, 1.21, 1.243, 1.25, 1.35}) {
     CAPTURE(average_s, time_s);
-    const auto share = rise.at(1, time_s, {kLength_m, average_s});
+    const auto share = fit::RiseAroundSlip(rise, 1, kLength_m, average_s).at(time_s);
     const double h = 1e-5;
     const auto at = [&](double of_length, double of_average) {
-      return rise.at(1, time_s, {kLength_m * std::exp(of_length), average_s * std::exp(of_average)}).value;
+      return fit::RiseAroundSlip(rise, 1, kLength_m * std::exp(of_length), average_s * std::exp(of_average))
+          .at(time_s)
+          .value;
     };
     CHECK(share.by_log_length == Approx((at(h, 0.0) - at(-h, 0.0)) / (2.0 * h)).margin(1e-8));
     if (average_s == 0.0) continue;

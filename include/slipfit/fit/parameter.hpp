@@ -36,7 +36,9 @@ enum class ParameterId : std::size_t {
   SensorAverage,
   SlipDistance,
   ReloadForce,
-  ReloadLength
+  ReloadLength,
+  Relaxation,
+  RelaxationTime
 };
 
 struct ParameterInfo {
@@ -75,12 +77,19 @@ struct HeldParameters {
 };
 
 /// The parameters of a model's covariance in its order; positive parameters enter as logarithms.
-inline constexpr std::array kModelParameters{ParameterId::Stiffness,        ParameterId::NaturalFrequency,
-                                             ParameterId::DampingRatio,     ParameterId::FrictionDifference,
-                                             ParameterId::FrictionSlope,    ParameterId::Alpha,
-                                             ParameterId::Ageing,           ParameterId::AgeingTime,
-                                             ParameterId::ReloadForce,      ParameterId::ReloadLength,
-                                             ParameterId::StiffnessExponent};
+inline constexpr std::array kModelParameters{ParameterId::Stiffness,
+                                             ParameterId::NaturalFrequency,
+                                             ParameterId::DampingRatio,
+                                             ParameterId::FrictionDifference,
+                                             ParameterId::FrictionSlope,
+                                             ParameterId::Alpha,
+                                             ParameterId::Ageing,
+                                             ParameterId::AgeingTime,
+                                             ParameterId::ReloadForce,
+                                             ParameterId::ReloadLength,
+                                             ParameterId::StiffnessExponent,
+                                             ParameterId::Relaxation,
+                                             ParameterId::RelaxationTime};
 inline constexpr std::size_t kModelValues = kModelParameters.size();
 
 /// Returns the position of a parameter in the covariance of the model.

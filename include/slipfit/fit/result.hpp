@@ -105,6 +105,13 @@ struct Reloading {
   double length_m = 0.0;  ///< l > 0
 };
 
+/// A spring of which a share relaxes (standard linear solid); k is that of the spring before it relaxes. docs/model.md
+/// (25c)
+struct RelaxingSpring {
+  double share = 0.0;   ///< 0 <= share < 1
+  double time_s = 1.0;  ///< t_r > 0
+};
+
 /// Stiffness that varies with driving speed, k proportional to V^exponent, and w_n of the same mass. docs/model.md (26)
 struct StiffnessTrend {
   double exponent = 0.0;
@@ -156,8 +163,8 @@ struct ModelEstimate {
   double damping_ratio = 0.0;          ///< >= 0
   double friction_difference_N = 0.0;  ///< F_s - F_k(0+)
   /// The covariance of kModelParameters (ln k, ln w_n, zeta, ln(F_s - F_k(0+)), b, alpha, rate and cut-off of ageing, A
-  /// and ln l of the force recovery, exponent of k), including the scatter of the cycles; b and alpha are exactly 0
-  /// under Coulomb friction, the others if the model does not contain them.
+  /// and ln l of the force recovery, exponent of k, share and ln t_r of the relaxation), including the scatter of the
+  /// cycles; b and alpha are exactly 0 under Coulomb friction, the others if the model does not contain them.
   std::array<std::array<double, kModelValues>, kModelValues> covariance{};
   double degrees_of_freedom = 1.0;                    ///< of Student's t
   bool damping_identified = false;                    ///< zeta is known well enough to ask for critical speeds
@@ -165,6 +172,7 @@ struct ModelEstimate {
   std::optional<Ageing> ageing{};                     ///< empty: the same static friction after every stick
   std::optional<Reloading> reloading{};               ///< empty: sticks are straight
   std::optional<StiffnessTrend> stiffness_trend{};    ///< empty: the same k at every speed
+  std::optional<RelaxingSpring> relaxing{};           ///< empty: the spring does not relax
   std::optional<SpeedReach> reach{};                  ///< of a sweep
   std::optional<SingleSpeed> single_speed{};          ///< of one recording, where a prediction is asked for
   std::optional<double> normal_force_N{};             ///< that the forces belong to, where loads are known

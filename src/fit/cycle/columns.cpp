@@ -16,6 +16,10 @@ Columns::Columns(const Scales& scales, const LevelModel& level)
     add(kFrictionRate);
   }
   if (scales.law == FrictionLaw::Weakening) add(kSlipDistance);
+  if (scales.relaxing) {
+    add(kRelaxation);
+    add(kRelaxationTime);
+  }
   if (level.reloading) add(kReloadForce);
   if (level.reloading && level.reloading->is_free) add(kReloadLength);
   if (scales.population && scales.population->log_speed) add(kStiffnessExponent);

@@ -40,6 +40,14 @@ inline double shown_beyond_s(const SensorTimes& sensor) {
   return 8.0 * sensor.lag_s + 0.5 * sensor.average_s;
 }
 
+/// The typical cycle of a recording on a spring that relaxes, from which the force that is still relaxing at an onset
+/// follows: times in units of 1 / w_n, at the w_n that the fit begins with.
+struct RelaxingCycles {
+  double slip = 1.0;
+  double period = 1.0;
+  double longest_s = 0.0;  ///< the fit ends with this time of relaxation at most
+};
+
 /// Describes how a recording enters a fit: the scales that make its numbers of order one, and how its samples see a
 /// slip.
 struct Scales {
@@ -56,8 +64,9 @@ struct Scales {
   double sensor_time_unit_s = 1.0;      ///< of that parameter, (time / unit)^2: what slips show of it is linear in that
   double half_period_s = 1.0;           ///< from the largest to the smallest force of a slip, pi / (w_n b)
   FrictionLaw law = FrictionLaw::Coulomb;
-  double slip_distance_m = 1.0;            ///< Units::slip_distance_m
-  std::optional<Population> population{};  ///< of a sweep
+  double slip_distance_m = 1.0;              ///< Units::slip_distance_m
+  std::optional<RelaxingCycles> relaxing{};  ///< the spring relaxes (docs/model.md section 10); empty: it does not
+  std::optional<Population> population{};    ///< of a sweep
 
   /// Force at which the level's constant counts 0, and its unit.
   [[nodiscard]] double level_zero() const { return population ? 0.0 : level; }

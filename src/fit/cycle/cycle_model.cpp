@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "fit/cycle/bin_nodes.hpp"
 #include "fit/law/speed_dependent.hpp"
 
 namespace slipfit::fit {
@@ -45,13 +46,11 @@ CycleFrame CycleModel::frame(const Coordinates& here, const double* local) const
   return frame;
 }
 
-RiseAfterSlip::Shape CycleModel::rise_of(const Coordinates& shared) const {
-  return {std::exp(shared(kReloadLength)), sensor_of(scales_, shared).average_s};
-}
-
-double CycleModel::rise_at(double time_s, const Coordinates& shared) const {
-  if (!level_->reloading) return 0.0;
-  return scales_.force * shared(kReloadForce) * level_->reloading->at(data_->slip, time_s, rise_of(shared)).value;
+std::optional<CycleRise> CycleModel::rise(const Coordinates& shared) const {
+  if (!level_->reloading) return std::nullopt;
+  const double average_s = sensor_of(scales_, shared).average_s;
+  return CycleRise{scales_.force, shared(kReloadForce),
+                   RiseAroundSlip(*level_->reloading, data_->slip, std::exp(shared(kReloadLength)), average_s)};
 }
 
 std::optional<CycleState> CycleModel::state(const Coordinates& shared, const double* local) const {
@@ -60,6 +59,10 @@ std::optional<CycleState> CycleModel::state(const Coordinates& shared, const dou
   const SensorTimes sensor = sensor_of(scales_, here);
   if (scales_.law == FrictionLaw::Weakening) {
     auto motion = WeakeningCycle::solve(f.z0(), f.omega_rad_per_s, here, sensor, scales_);
+    return motion ? std::optional(CycleState{f, *std::move(motion)}) : std::nullopt;
+  }
+  if (scales_.relaxing) {
+    auto motion = RelaxingCycle::solve(f.z0(), f.omega_rad_per_s, here, sensor, scales_);
     return motion ? std::optional(CycleState{f, *std::move(motion)}) : std::nullopt;
   }
   if (!(f.z0() + 2.0 * f.zeta > 0.0) || !(std::abs(f.zeta) < 1.0) || !std::isfinite(f.z0())) return std::nullopt;
@@ -88,7 +91,24 @@ class CycleModel::Rows {
         drift_(static_cast<Index>(columns_.first_drift())),
         onset_(static_cast<Index>(columns_.common())) {}
 
-  /// The force above the level and its derivatives, in units of k V / w_n, at the next row.
+  /// What a row stores: the force above the level and its derivatives, in units of k V / w_n.
+  template <std::size_t N>
+  struct Ingredients {
+    double z = 0.0, by_tau = 0.0, by_z0 = 0.0;
+    double by_log_omega = 0.0;  ///< at a fixed time
+    double by_log_time = 0.0;   ///< of the sensor
+    std::array<double, N> by_law{};
+
+    void add(double weight, const Ingredients& other) {
+      z += weight * other.z;
+      by_tau += weight * other.by_tau;
+      by_z0 += weight * other.by_z0;
+      by_log_omega += weight * other.by_log_omega;
+      by_log_time += weight * other.by_log_time;
+      for (std::size_t i = 0; i < N; ++i) by_law[i] += weight * other.by_law[i];
+    }
+  };
+  /// Places of the ingredients at the next row.
   struct Place {
     double* z = nullptr;
     double* by_tau = nullptr;
@@ -100,17 +120,16 @@ class CycleModel::Rows {
     std::ptrdiff_t row = 0;
 
     template <std::size_t N>
-    void put(double z_here, double d_tau, double d_z0, double d_log_omega, double d_log_time,
-             const std::array<double, N>& d_law) {
+    void put(const Ingredients<N>& at) {
       const std::ptrdiff_t here = row++;
-      z[here] = z_here;
+      z[here] = at.z;
       if (by_tau == nullptr) return;
-      by_tau[here] = d_tau;
-      by_z0[here] = d_z0;
-      by_log_omega[here] = d_log_omega;
-      if (by_sensor_time != nullptr) by_sensor_time[here] = d_log_time;
+      by_tau[here] = at.by_tau;
+      by_z0[here] = at.by_z0;
+      by_log_omega[here] = at.by_log_omega;
+      if (by_sensor_time != nullptr) by_sensor_time[here] = at.by_log_time;
       double* law = by_law + here;
-      for (const double derivative : d_law) {
+      for (const double derivative : at.by_law) {
         *law = derivative;
         law += stride;
       }
@@ -136,29 +155,26 @@ class CycleModel::Rows {
   }
 
   /// The rise after slips joins residuals and Jacobian.
-  void add_rise() const {
-    const RiseAfterSlip& rise = *cycle_.level_->reloading;
-    const Coordinates& shared = *values_.shared;
-    const RiseAfterSlip::Shape shape = cycle_.rise_of(shared);
-    const double force = shared(kReloadForce);
+  void add_rise(const CycleRise& rise) const {
     Index row = 0;
     const auto put = [&](const RiseAfterSlip::Share& share) {
-      const double weight = -scales_.force / scales_.noise * rows_.weight(row);
-      residuals_[row] += weight * force * share.value;
+      const double by_strength = -rise.unit_force / scales_.noise * rows_.weight(row);
+      const double by_share = by_strength * rise.strength;
+      residuals_[row] += by_share * share.value;
       if (jacobian_ != nullptr) {
-        at(of(kReloadForce))[row] = weight * share.value;
-        if (columns_.has(kReloadLength)) at(of(kReloadLength))[row] = weight * force * share.by_log_length;
+        at(of(kReloadForce))[row] = by_strength * share.value;
+        if (columns_.has(kReloadLength)) at(of(kReloadLength))[row] = by_share * share.by_log_length;
         if (scales_.free_time == FreeTime::Average) {
-          at(of(kSensorTime))[row] += weight * force * share.by_log_average * 0.5 / shared(kSensorTime);
+          at(of(kSensorTime))[row] += by_share * share.by_log_average * 0.5 / (*values_.shared)(kSensorTime);
         }
       }
       ++row;
     };
     const CycleData& data = cycle_.data();
-    for (const double time_s : data.time_s) put(rise.at(data.slip, time_s, shape));
+    for (const double time_s : data.time_s) put(rise.share.at(time_s));
     for (const auto* bins : {&data.bins_before, &data.bins_after}) {
       for (const StickBin& bin : *bins) {
-        const RiseAfterSlip::Line line = rise.over(data.slip, bin, shape);
+        const RiseAfterSlip::Line line = rise.share.over(bin);
         put(line.mean);
         put(line.slope);
       }
@@ -215,7 +231,8 @@ class CycleModel::Rows {
     const double scaled = -by_noise * frame.force_scale;
     column(kLogStiffness) = scaled * weight * (z - frame.z0() * column(onset_ + 1));  // at a fixed tau
     column(kLogFrequency) = scaled * weight * column(kLogFrequency) - column(kLogStiffness);
-    for (const Coordinate of_law : {kDamping, kFrictionSlope, kFrictionRate, kSlipDistance}) {
+    for (const Coordinate of_law :
+         {kDamping, kFrictionSlope, kFrictionRate, kSlipDistance, kRelaxation, kRelaxationTime}) {
       if (columns_.has(of_law)) column(of(of_law)) *= scaled * weight;
     }
     if (columns_.has(kStiffnessExponent)) {
@@ -254,31 +271,50 @@ class CycleModel::Rows {
 
 /// F = level + u z(tau; z0, law), tau = w_n (t - onset), z0 = A / u, u = k V / w_n
 template <class Law>
-void CycleModel::fill(const Law& law, const CycleFrame& frame, const Rows& rows) const {
+void CycleModel::fill(const Law& law, const CycleFrame& frame, const std::optional<CycleRise>& rise,
+                      const Rows& rows) const {
   using Point = typename Law::Point;
   Rows::Place next = rows.first();
   const bool is_lag = scales_.free_time == FreeTime::Lag;
-  const auto put_point = [&](double tau, const Point& p) {
+  const auto ingredients = [&](double tau, const Point& p) {
     // What depends on w_n at fixed tau are the times of the sensor: what is not the average's is the lag's.
     const double by_log_time = is_lag ? law.by_log_sensor(p) - p.d_log_average : p.d_log_average;
-    next.put(p.z, p.d_tau, p.d_z0, p.d_tau * tau + law.by_log_omega(p), by_log_time, law.by_law(p));
+    return Rows::Ingredients{p.z, p.d_tau, p.d_z0, p.d_tau * tau + law.by_log_omega(p), by_log_time, law.by_law(p)};
   };
   typename Law::Samples samples(law, frame.omega_rad_per_s * even_step_s_);
   for (const double time_s : data_->time_s) {
     const double tau = frame.tau_at(time_s);
-    put_point(tau, samples.at(tau));
+    next.put(ingredients(tau, samples.at(tau)));
   }
-  const auto put_bin = [&](double tau, const Point& p) {
-    put_point(tau, p);
-    // The slope of a stick is k V: w_n in these units, so that it does not change with w_n.
-    const double w = frame.omega_rad_per_s;
-    next.put(w, 0.0, 0.0, w, 0.0, decltype(law.by_law(p)){});
-  };
-  const auto tau_of = [&](const StickBin& bin) { return frame.tau_at(bin.time_s); };
-  for (const StickBin& bin : data_->bins_before) put_bin(tau_of(bin), law.before_slip(tau_of(bin)));
-  for (const StickBin& bin : data_->bins_after) put_bin(tau_of(bin), law.after_slip(tau_of(bin)));
+  if constexpr (Law::kStraightSticks) {
+    const auto put_bin = [&](double tau, const Point& p) {
+      next.put(ingredients(tau, p));
+      // The slope of a stick is k V: w_n in these units, so that it does not change with w_n.
+      const double w = frame.omega_rad_per_s;
+      next.put(Rows::Ingredients{w, 0.0, 0.0, w, 0.0, decltype(law.by_law(p)){}});
+    };
+    const auto tau_of = [&](const StickBin& bin) { return frame.tau_at(bin.time_s); };
+    for (const StickBin& bin : data_->bins_before) put_bin(tau_of(bin), law.before_slip(tau_of(bin)));
+    for (const StickBin& bin : data_->bins_after) put_bin(tau_of(bin), law.after_slip(tau_of(bin)));
+  } else {
+    for (const auto* bins : {&data_->bins_before, &data_->bins_after}) {
+      for (const StickBin& bin : *bins) {
+        decltype(ingredients(0.0, Point{})) mean;
+        decltype(mean) slope;
+        const BinNodes in_bin(bin);
+        for (const BinNodes::Node& node : in_bin.nodes()) {
+          const double tau = frame.tau_at(node.time_s);
+          const auto here = ingredients(tau, law.at(tau));
+          mean.add(node.mean, here);
+          slope.add(node.slope_per_s, here);
+        }
+        next.put(mean);
+        next.put(slope);
+      }
+    }
+  }
   rows.finish(frame);
-  if (level_->reloading) rows.add_rise();
+  if (rise) rows.add_rise(*rise);
   if (!scales_.population) return;
   const auto ties = static_cast<Eigen::Index>(data_->residuals());
   rows.tie_static_friction(frame, ties);
@@ -287,15 +323,16 @@ void CycleModel::fill(const Law& law, const CycleFrame& frame, const Rows& rows)
 
 bool CycleModel::evaluate(const CycleValues& values, double* residuals, double* jacobian) const {
   Rows rows(*this, values, residuals, jacobian);
+  const std::optional<CycleRise> rise = this->rise(*values.shared);
   if (!is_integrated()) {
     const std::optional<CycleState> now = state(*values.shared, values.local);
-    if (now) std::visit([&](const auto& law) { fill(law, *now, rows); }, now->motion);
+    if (now) std::visit([&](const auto& law) { fill(law, *now, rise, rows); }, now->motion);
     return now.has_value();
   }
   const Coordinates here = at_speed(*values.shared);
   const CycleFrame f = frame(here, values.local);
   const auto motion = SpeedDependentCycle::solve(f.z0(), here, sensor_of(scales_, here), scales_);
-  if (motion) fill(*motion, f, rows);
+  if (motion) fill(*motion, f, rise, rows);
   return motion.has_value();
 }
 

@@ -13,8 +13,10 @@
 #include "fit/cycle/columns.hpp"
 #include "fit/cycle/cycle_data.hpp"
 #include "fit/law/coulomb.hpp"
+#include "fit/law/relaxing.hpp"
 #include "fit/law/slip_weakening.hpp"
 #include "fit/level/level_model.hpp"
+#include "fit/level/reloading.hpp"
 
 namespace slipfit::fit {
 
@@ -93,7 +95,7 @@ struct CycleFrame {
 
 /// One cycle by a law in closed form.
 struct CycleState : CycleFrame {
-  std::variant<CoulombCycle, WeakeningCycle> motion;
+  std::variant<CoulombCycle, WeakeningCycle, RelaxingCycle> motion;
 
   [[nodiscard]] double slip_s() const {
     return std::visit([](const auto& law) { return law.tau_end(); }, motion) / omega_rad_per_s;
@@ -118,6 +120,16 @@ struct CycleState : CycleFrame {
   [[nodiscard]] double stick_after() const {
     return force_scale * std::visit([](const auto& law) { return law.shown_after(); }, motion);
   }
+};
+
+/// The rise after slips around one slip.
+struct CycleRise {
+  double unit_force = 0.0;
+  double strength = 0.0;  ///< A / unit_force
+  RiseAroundSlip share;
+
+  /// Returns the contribution to the force.
+  [[nodiscard]] double at(double time_s) const { return unit_force * strength * share.at(time_s).value; }
 };
 
 /// The residuals of one cycle: (data - model) / noise for every sample around the slip, and two for each stick bin (its
@@ -156,20 +168,19 @@ class CycleModel {
   /// Returns the level without hum. `level` points to the constant, where there is one, and the drift.
   [[nodiscard]] double level_at(double time_s, const double* level, const double* local) const;
   [[nodiscard]] double hum_at(double time_s, const double* level) const;
-  /// Returns the contribution of the rise after a slip to the force; it is 0 where sticks are straight.
-  [[nodiscard]] double rise_at(double time_s, const Coordinates& shared) const;
+  /// Returns the rise after slips; it is empty where sticks are straight.
+  [[nodiscard]] std::optional<CycleRise> rise(const Coordinates& shared) const;
 
  private:
   class Rows;
 
-  [[nodiscard]] RiseAfterSlip::Shape rise_of(const Coordinates& shared) const;
   /// Returns the coordinates at the recording's speed: k varies with it, and so does w_n of the same mass.
   [[nodiscard]] Coordinates at_speed(const Coordinates& shared) const;
   /// `here`: at the recording's speed.
   [[nodiscard]] CycleFrame frame(const Coordinates& here, const double* local) const;
   [[nodiscard]] std::size_t ties() const { return scales_.population ? 1 + (level_->per_cycle ? 1 : 0) : 0; }
   template <class Law>
-  void fill(const Law& law, const CycleFrame& frame, const Rows& rows) const;
+  void fill(const Law& law, const CycleFrame& frame, const std::optional<CycleRise>& rise, const Rows& rows) const;
 
   const CycleData* data_;
   const LevelModel* level_;

@@ -216,7 +216,7 @@ VectorXd rises_of(const SweepSolution& solution) {
   std::vector<double> rises;
   for (std::size_t r = 0; r < solution.recordings.size(); ++r) {
     const BlockFit& recording = solution.recordings[r];
-    if (!recording.level().reloading) continue;
+    if (!recording.solves_for(kReloadForce)) continue;
     rises.push_back(recording.parameters.values(kReloadForce) * recording.scales().force /
                     solution.population(r).force);
   }

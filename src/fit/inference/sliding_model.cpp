@@ -5,6 +5,7 @@
 
 #include "fit/law/speed_dependent.hpp"
 #include "model/ageing.hpp"
+#include "model/relaxing.hpp"
 #include "model/reloading.hpp"
 #include "model/slip_jets.hpp"
 
@@ -26,6 +27,7 @@ SlidingModel::SlidingModel(const Coordinates& values, const Units& units) {
   ageing_time = units.stick_s * jet(kAgeingTime);
   slip_distance = units.slip_distance_m * jet(kSlipDistance) * jet(kSlipDistance);
   if (values(kReloadForce) > 0.0) reload = Reload{units.force * jet(kReloadForce), exp(jet(kReloadLength))};
+  if (values(kRelaxation) > 0.0) relaxation = Relaxation{jet(kRelaxation), exp(jet(kRelaxationTime))};
   stiffness_exponent = jet(kStiffnessExponent);
   reference_stick_s_ = units.stick_s;
   reference_speed_m_per_s_ = units.speed_m_per_s;
@@ -54,6 +56,15 @@ std::optional<SlidingModel::Cycle> SlidingModel::cycle(double speed_m_per_s, dou
   const Jet growth = growth_at(speed_m_per_s);
   const Jet k = stiffness * growth;
   const Jet w = omega * sqrt(growth);  // of the same mass
+  if (relaxation) {
+    const Jet z0 = load * difference_N * w / (k * speed_m_per_s) - 2.0 * zeta;
+    const Jet time = w * relaxation->time_s;
+    if (!(z0.a + 2.0 * zeta.a > 0.0) || !(std::abs(zeta.a) < 1.0)) return std::nullopt;
+    const auto limit = model::relaxing_period(z0.a, zeta.a, relaxation->share.a, time.a);
+    if (!limit) return std::nullopt;
+    const Jet period_s = model::composed(limit->period, z0, zeta, relaxation->share, time) / w;
+    return Cycle{period_s, period_s - model::composed(limit->slip, z0, zeta, relaxation->share, time) / w};
+  }
   const model::SlipJets<Jet> slip(k, w, zeta, load * difference_N, load * slope, alpha, speed_m_per_s);
   const auto track = slip.solve();
   if (!track || !track->resticks()) return std::nullopt;

@@ -11,11 +11,17 @@ struct Reload {
   Jet force_N, length_m;
 };
 
+/// A spring that relaxes: the share of k and the time.
+struct Relaxation {
+  Jet share, time_s;
+};
+
 /// The coordinates in SI with their derivatives. Forces at the reference load.
 struct SlidingModel {
   Jet stiffness, omega, zeta, slope, alpha, level, difference, ageing, ageing_time, slip_distance,
-      stiffness_exponent;        // k and w_n are those at Units::speed_m_per_s
-  std::optional<Reload> reload;  ///< empty: sticks are straight
+      stiffness_exponent;                // k and w_n are those at Units::speed_m_per_s
+  std::optional<Reload> reload;          ///< empty: the force does not rise after slips
+  std::optional<Relaxation> relaxation;  ///< empty: the spring does not relax
 
   SlidingModel(const Coordinates& values, const Units& units);
 

@@ -17,6 +17,7 @@ namespace slipfit::fit {
 class CoulombCycle {
  public:
   using Point = model::WavePoint;
+  static constexpr bool kStraightSticks = true;
 
   /// `z0`: spring force above F_k at the onset. Needs z0 + 2 zeta > 0 and |zeta| < 1.
   CoulombCycle(double z0, double zeta, const Sensor& sensor)

@@ -17,6 +17,8 @@ namespace slipfit::fit {
 /// A slip under friction that weakens over a distance, in its view. The numbers of the law are the distance and none.
 class WeakeningMotion {
  public:
+  static constexpr bool kStraightSticks = true;
+
   explicit WeakeningMotion(model::WeakeningSlip slip) : slip_(std::move(slip)) {}
 
   [[nodiscard]] MotionPoint at(double tau) const { return point_of(slip_.at(tau)); }
@@ -37,6 +39,7 @@ class WeakeningMotion {
 class WeakeningCycle {
  public:
   using Point = model::WeakeningPoint;
+  static constexpr bool kStraightSticks = true;
 
   /// Solves the cycle. It is empty where D_c is far above (F_s - F_k) / k, from which on friction that weakens makes no
   /// stick-slip: a weak slip may lie above that limit, but not all.

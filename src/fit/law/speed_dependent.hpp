@@ -32,6 +32,8 @@ inline SlopeRatio slope_ratio(FrictionLaw law, double a) {
 /// and its rate.
 class SpeedDependentMotion {
  public:
+  static constexpr bool kStraightSticks = true;
+
   SpeedDependentMotion(model::VelocityTrack track, ForceView view)
       : track_(std::move(track)), is_transmitted_(view == ForceView::Transmitted) {}
 
@@ -58,6 +60,7 @@ class SpeedDependentMotion {
 class SpeedDependentCycle {
  public:
   using Point = ShownPoint;
+  static constexpr bool kStraightSticks = true;
 
   /// Solves the cycle; it is empty where the slip has no solution.
   static std::optional<SpeedDependentCycle> solve(double z0, const Coordinates& values, const SensorTimes& sensor,

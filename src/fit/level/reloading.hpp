@@ -1,5 +1,7 @@
 #pragma once
 
+#include <ceres/jet.h>
+
 #include <cstddef>
 #include <vector>
 
@@ -18,29 +20,46 @@ struct RiseAfterSlip {
   std::vector<double> slip_begin_s;  ///< of every slip of the recording
   std::vector<double> slip_end_s;
 
-  /// Holds what the share of A depends on.
-  struct Shape {
-    double length_m = 0.0;
-    double average_s = 0.0;  ///< over which the sensor averages; 0: it does not
-  };
   /// A share of A and its derivatives with respect to ln l and to the logarithm of the average.
   struct Share {
     double value = 0.0;
     double by_log_length = 0.0;
     double by_log_average = 0.0;
   };
-  /// Near this slip: what the rise after the slip before it still lacks at the onset (below 0), 0 in the slip, the rise
-  /// after it.
-  [[nodiscard]] Share at(std::size_t slip, double time_s, const Shape& shape) const;
-
   /// Holds mean and least-squares slope over a bin's samples, evenly spread.
   struct Line {
     Share mean, slope;
   };
-  [[nodiscard]] Line over(std::size_t slip, const StickBin& bin, const Shape& shape) const;
+};
+
+/// The rise around one slip: what the rise after the slip before it still lacks at the onset (below 0), 0 in the slip,
+/// the rise after it.
+class RiseAroundSlip {
+ public:
+  /// `average_s`: over which the sensor averages; 0: it does not.
+  RiseAroundSlip(const RiseAfterSlip& rise, std::size_t slip, double length_m, double average_s);
+
+  [[nodiscard]] RiseAfterSlip::Share at(double time_s) const;
+  [[nodiscard]] RiseAfterSlip::Line over(const StickBin& bin) const;
 
  private:
-  [[nodiscard]] Share without_average(std::size_t slip, double time_s, double over_m) const;
+  using LengthJet = ceres::Jet<double, 1>;
+
+  /// The rise over part of a stick, as a share of A: 1 - exp(-t / scale) with t from the end of the slip before it,
+  /// less `risen`.
+  struct Stick {
+    double begin_s = 0.0;
+    LengthJet scale_s, risen;
+
+    [[nodiscard]] LengthJet at(double time_s) const;
+    [[nodiscard]] LengthJet integral(double from_s, double to_s) const;
+  };
+  [[nodiscard]] LengthJet without_average(double time_s) const;
+
+  bool has_before_;
+  double average_s_;
+  double onset_s_;
+  Stick before_, after_;
 };
 
 }  // namespace slipfit::fit

@@ -10,12 +10,13 @@ namespace {
 template <std::size_t N>
 std::array<double, N> moments(double q) {
   std::array<double, N> moment{};
-  if (q >= static_cast<double>(N)) {
+  // Upward, a step multiplies the error by j / q; downward by q / j.
+  if (q >= 0.5 * static_cast<double>(N)) {
     moment[0] = -std::expm1(-q);
     for (std::size_t j = 1; j < N; ++j) moment[j] = 1.0 - static_cast<double>(j) / q * moment[j - 1];
     return moment;
   }
-  // The recursion upward loses digits where q is below j: the series for the last one, and downward from it.
+  // The series for the last one, and downward from it.
   constexpr int kMostTerms = 80;  // 16^80 exp(-16) / 80! is below round-off
   double power = q * std::exp(-q);
   for (int n = 0; n < kMostTerms; ++n) {
@@ -28,12 +29,9 @@ std::array<double, N> moments(double q) {
 
 }  // namespace
 
-LagResponse::LagResponse(const MotionPoint& onset, const std::vector<model::SlipPart>& parts, double tau_end,
-                         double lag_tau)
-    : tau_end_(tau_end), kappa_(1.0 / lag_tau) {
-  // A straight ramp lags by T.
-  end_ = {column_of(onset), -lag_tau};
-  end_.shown[0] -= lag_tau;
+LagResponse::LagResponse(const MotionPoint& shown, const std::vector<model::SlipPart>& parts, double lag_tau)
+    : tau_end_(parts.back().begin + parts.back().length), kappa_(1.0 / lag_tau) {
+  end_ = {column_of(shown), -lag_tau * shown.d_tau};
   for (const model::SlipPart& part : parts) {
     pieces_.push_back({part, end_});
     end_ = response(pieces_.back(), part.length);
@@ -74,11 +72,9 @@ LagResponse::Response LagResponse::after_slip(const Column& motion, double tau) 
 }
 
 ShownPoint LagResponse::at(const MotionPoint& motion, double tau) const {
-  Response y{column_of(motion), -lag_tau()};
-  if (tau <= 0.0) {
-    y.shown[0] -= lag_tau();
-  } else if (tau >= tau_end_) {
-    y = after_slip(y.shown, tau);
+  Response y;
+  if (tau >= tau_end_) {
+    y = after_slip(column_of(motion), tau);
   } else {
     const auto after = std::upper_bound(pieces_.begin(), pieces_.end(), tau,
                                         [](double time, const Piece& piece) { return time < piece.motion.begin; });

@@ -27,11 +27,11 @@ struct ShownPoint : MotionPoint {
 /// before counts as long enough for the slip before it to be forgotten. docs/model.md section 7
 class LagResponse {
  public:
-  /// `onset`: z at tau = 0. `parts`: of the slip, in their order.
-  LagResponse(const MotionPoint& onset, const std::vector<model::SlipPart>& parts, double tau_end, double lag_tau);
+  /// `shown`: by the sensor at tau = 0. `parts`: of all that is not straight from there on, in their order.
+  LagResponse(const MotionPoint& shown, const std::vector<model::SlipPart>& parts, double lag_tau);
 
   [[nodiscard]] double lag_tau() const { return 1.0 / kappa_; }
-  /// The force that the sensor shows at a tau. `motion`: z there.
+  /// The force that the sensor shows at a tau above 0. `motion`: z there.
   [[nodiscard]] ShownPoint at(const MotionPoint& motion, double tau) const;
 
  private:

@@ -9,30 +9,37 @@
 namespace slipfit::fit {
 
 /// Any motion as a sensor shows it that lags, averages, or does both. A Motion has, in the view of the sensor, the
-/// force `at` any tau, its `integral_to` any tau from the onset (d_tau: the force itself), the `parts` and the
-/// `tau_end` of its slip. docs/model.md section 7
+/// force `at` any tau, its `integral_to` any tau from the onset (d_tau: the force itself), the `tau_end` of its slip
+/// and the `parts` of it and of the stick after it, as far as that is not straight. docs/model.md section 7
 template <class Motion>
 class ShownMotion {
  public:
   /// Times of the sensor in units of 1 / w_n.
   ShownMotion(Motion motion, double lag_tau, double average_tau)
       : motion_(std::move(motion)), half_window_(0.5 * average_tau) {
-    if (lag_tau > 0.0) lag_.emplace(motion_.at(0.0), motion_.parts(), motion_.tau_end(), lag_tau);
+    if (lag_tau > 0.0) lag_.emplace(motion_.at(-lag_tau), motion_.parts(), lag_tau);
   }
 
+  /// Returns the motion without the sensor.
+  [[nodiscard]] const Motion& motion() const { return motion_; }
   [[nodiscard]] double lag_tau() const { return lag_ ? lag_->lag_tau() : 0.0; }
 
   [[nodiscard]] ShownPoint at(double tau) const {
     // The mean of a straight line is its middle.
-    const bool is_straight = tau + half_window_ <= 0.0 || (!lag_ && tau - half_window_ >= motion_.tau_end());
+    const bool is_straight =
+        Motion::kStraightSticks && (tau + half_window_ <= 0.0 || (!lag_ && tau - half_window_ >= motion_.tau_end()));
     return half_window_ == 0.0 || is_straight ? instant_at(tau) : mean_around(tau);
   }
 
  private:
-  /// Returns the force that the sensor shows without the average.
+  /// Returns the force that the sensor shows without the average. Before the slip it is the force a lag earlier: exact
+  /// of a straight stick, and of one that bends little within a lag.
   [[nodiscard]] ShownPoint instant_at(double tau) const {
-    const MotionPoint motion = motion_.at(tau);
-    return lag_ ? lag_->at(motion, tau) : ShownPoint{motion};
+    if (!lag_) return ShownPoint{motion_.at(tau)};
+    if (tau > 0.0) return lag_->at(motion_.at(tau), tau);
+    ShownPoint point{motion_.at(tau - lag_tau())};
+    point.d_log_omega = -lag_tau() * point.d_tau;
+    return point;
   }
 
   /// The mean over the window around tau.
@@ -42,19 +49,21 @@ class ShownMotion {
     const double length = last - first;
     const ShownPoint shown_first = instant_at(first);
     const ShownPoint shown_last = instant_at(last);
-    ShownPoint mean{motion_.integral_to(last)};
-    add(motion_.integral_to(first), -1.0, mean);
-    if (lag_) {
-      // y' = kappa (z - y) makes the integral of y that of z less y / kappa.
-      const double lag = lag_tau();
-      add(shown_last, -lag, mean);
-      add(shown_first, lag, mean);
-      mean.d_log_omega = -lag * (shown_last.d_log_omega - shown_first.d_log_omega + shown_last.z - shown_first.z);
-    }
+    const MotionPoint to_last = motion_.integral_to(last);
+    const MotionPoint to_first = motion_.integral_to(first);
+    ShownPoint mean{to_last};
+    add(to_first, -1.0, mean);
+    // y' = kappa (z - y) makes the integral of y that of z less y / kappa.
+    const double lag = lag_tau();
+    add(shown_last, -lag, mean);
+    add(shown_first, lag, mean);
+    mean.d_log_omega = -lag * (shown_last.d_log_omega - shown_first.d_log_omega + shown_last.z - shown_first.z);
     for (double* const value : {&mean.z, &mean.d_z0, &mean.d_zeta, &mean.d_log_omega}) *value /= length;
     for (double& value : mean.d_law) value /= length;
-    mean.d_tau = (shown_last.z - shown_first.z) / length;
-    mean.d_log_average = 0.5 * (shown_first.z + shown_last.z) - mean.z;
+    const double at_last = to_last.d_tau - lag * shown_last.d_tau;
+    const double at_first = to_first.d_tau - lag * shown_first.d_tau;
+    mean.d_tau = (at_last - at_first) / length;
+    mean.d_log_average = 0.5 * (at_first + at_last) - mean.z;
     mean.d_log_omega += mean.d_log_average;  // the window is w_n W long
     return mean;
   }

@@ -157,7 +157,8 @@ int most_iterations(const Problem& problem, const SolveOptions& options, std::si
 /// A time of the sensor of a hundredth of the slip leaves no trace, and none is not a value that derivatives lead to.
 constexpr double kLeastSensorTime = 1e-4;  // (time / Scales::sensor_time_unit_s)^2
 
-constexpr double kShortestRise = 1e-3;  // of the longest: over before the next sample
+constexpr double kMostRelaxation = 0.95;  // of k: a spring that relaxes by all of it is none
+constexpr double kShortestRise = 1e-3;    // of the longest: over before the next sample
 
 void hold(ceres::Problem& ceres, double* parameters, const Problem& problem, const SolveOptions& options,
           const Eigen::VectorXd& units) {
@@ -179,11 +180,15 @@ void hold(ceres::Problem& ceres, double* parameters, const Problem& problem, con
   bound(kFrictionRate, kLeastRate, kMostRate);
   bound(kSensorTime, kLeastSensorTime, std::nullopt);
   if (options.damped) bound(kDamping, 0.0, std::nullopt);
+  bound(kRelaxation, 0.0, kMostRelaxation);
   double longest_m = 0.0;
+  double longest_s = 0.0;
   for (const BlockFit& recording : problem.recordings) {
     if (const auto& rise = recording.level().reloading) longest_m = std::max(longest_m, rise->longest_m);
+    if (const auto& relaxing = recording.scales().relaxing) longest_s = std::max(longest_s, relaxing->longest_s);
   }
   if (longest_m > 0.0) bound(kReloadLength, std::log(kShortestRise * longest_m), std::log(longest_m));
+  if (longest_s > 0.0) bound(kRelaxationTime, std::log(kShortestRise * longest_s), std::log(longest_s));
 }
 
 /// Joined ramps start at the solution for the cycles by themselves: nearly whole steps. Damped ones move a long chain

@@ -102,6 +102,7 @@ Scales scales_in_sweep(const SweepData& data, std::size_t recording, FrictionLaw
   if (is_averaged)
     scales.sensor_time_unit_s = scales.sensor_average_s = data.average->seconds;  // one of all recordings
   scales.law = law;
+  if (depends_on_speed(law)) scales.relaxing.reset();
   Population population;
   population.load = load;
   population.force = load * data.units.force;

@@ -35,7 +35,9 @@ std::array<Jet, kModelValues> values_of(const SlidingModel& model) {
           model.ageing_time,
           model.reload ? model.reload->force_N : Jet(0.0),
           model.reload ? log(model.reload->length_m) : Jet(0.0),
-          model.stiffness_exponent};
+          model.stiffness_exponent,
+          model.relaxation ? model.relaxation->share : Jet(0.0),
+          model.relaxation ? log(model.relaxation->time_s) : Jet(0.0)};
 }
 
 }  // namespace
@@ -63,6 +65,10 @@ std::optional<EstimatedModel> model_of(const Findings& findings, const SlidingMo
   if (findings.law && findings.law->stiffness_grows) {
     estimate.stiffness_trend = StiffnessTrend{model.stiffness_exponent.a, findings.units.speed_m_per_s};
     used.push_back(10);
+  }
+  if (model.relaxation) {
+    estimate.relaxing = RelaxingSpring{model.relaxation->share.a, model.relaxation->time_s.a};
+    used.insert(used.end(), {11, 12});
   }
   for (const std::size_t i : used) {
     for (const std::size_t j : used) estimate.covariance[i][j] = findings.intervals.whole_covariance(all[i], all[j]);

@@ -36,6 +36,7 @@ class Reporter {
     if (f_.law) report_law();
     report_slip_distance();
     if (model_.reload) report_reload(*model_.reload);
+    if (model_.relaxation) report_relaxation(*model_.relaxation);
     if (f_.sensor_average_s) add_held(Id::SensorAverage, *f_.sensor_average_s);
     if (f_.fitted_average) report_average(*f_.fitted_average);
     if (auto model = model_of(f_, model_)) {
@@ -262,6 +263,12 @@ class Reporter {
     const std::string note = or_few_cycles(doubt);
     if (f_.in_newtons) add_graded(Id::ReloadForce, f_.intervals.interval_of_one_sign(reload.force_N), doubt, note);
     add_graded(Id::ReloadLength, f_.intervals.interval_of_one_sign(reload.length_m), doubt, note);
+  }
+
+  void report_relaxation(const Relaxation& relaxation) {
+    const std::string doubt = f_.stiffness_doubt.empty() ? f_.slip_doubt : f_.stiffness_doubt;
+    add_graded(Id::Relaxation, f_.intervals.interval_of_one_sign(relaxation.share), doubt, or_few_cycles(doubt));
+    add_graded(Id::RelaxationTime, f_.intervals.interval_of_one_sign(relaxation.time_s), doubt, or_few_cycles(doubt));
   }
 
   static std::string why_only_slope(const Estimate& slope) {

@@ -49,26 +49,6 @@ std::optional<Smoothing> rounding_of(const SweepRecording& sweep, const DampedFi
   return repeats_rounding(fit) ? std::nullopt : fit.rounding;
 }
 
-/// Returns the largest variance of averaging, in s^2, that all recordings allow together; empty where the averaging
-/// does not exceed a step of the clock. All recordings of a machine average over the same time, so that they may
-/// determine together what each alone does not.
-std::optional<double> common_rounding_s2(std::span<const SweepRecording> recordings, const OwnFits& own) {
-  double weights = 0.0;
-  double sum = 0.0;
-  double longest_step_s = 0.0;
-  for (std::size_t i = 0; i < recordings.size(); ++i) {
-    const std::optional<Smoothing> seen = own.fits[i] ? rounding_of(recordings[i], *own.fits[i]) : std::nullopt;
-    if (!seen || !(seen->standard_error_s2 > 0.0)) continue;
-    const double weight = std::pow(seen->standard_error_s2, -2);
-    weights += weight;
-    sum += weight * seen->variance_s2;
-    longest_step_s = std::max(longest_step_s, recordings[i].recording.sample_interval_s());
-  }
-  if (!(weights > 0.0)) return std::nullopt;
-  const Smoothing together{sum / weights, 1.0 / std::sqrt(weights)};
-  return together.exceeds_step(longest_step_s) ? std::optional(together.largest_variance_s2()) : std::nullopt;
-}
-
 /// Mean of the lengths that the recordings find for the rise after a slip, by their errors; empty where none does.
 std::optional<double> mean_length_m(const std::vector<std::optional<DampedFit>>& fits) {
   double weights = 0.0;
@@ -102,7 +82,7 @@ class OwnFitter {
     }
     if (known_) return averaged(own, *known_);
     share_average(own);
-    if (!own.average) own.rounding_s2 = common_rounding_s2(recordings_, own);
+    if (!own.average) own.rounding_s2 = common_rounding_s2(recordings_, own.fits);
     return own;
   }
 
@@ -223,6 +203,24 @@ OwnFits with_free_rises(OwnFits own) {
 }
 
 }  // namespace
+
+std::optional<double> common_rounding_s2(std::span<const SweepRecording> recordings,
+                                         const std::vector<std::optional<DampedFit>>& fits) {
+  double weights = 0.0;
+  double sum = 0.0;
+  double longest_step_s = 0.0;
+  for (std::size_t i = 0; i < recordings.size(); ++i) {
+    const std::optional<Smoothing> seen = fits[i] ? rounding_of(recordings[i], *fits[i]) : std::nullopt;
+    if (!seen || !(seen->standard_error_s2 > 0.0)) continue;
+    const double weight = std::pow(seen->standard_error_s2, -2);
+    weights += weight;
+    sum += weight * seen->variance_s2;
+    longest_step_s = std::max(longest_step_s, recordings[i].recording.sample_interval_s());
+  }
+  if (!(weights > 0.0)) return std::nullopt;
+  const Smoothing together{sum / weights, 1.0 / std::sqrt(weights)};
+  return together.exceeds_step(longest_step_s) ? std::optional(together.largest_variance_s2()) : std::nullopt;
+}
 
 OwnFits fit_each(std::span<const SweepRecording> recordings, const HeldParameters& held,
                  const std::optional<FittedAverage>& known) {

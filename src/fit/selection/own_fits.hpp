@@ -21,6 +21,12 @@ struct OwnFits {
   std::optional<StatedMass> mass{};  ///< that gives w_n
 };
 
+/// Returns the largest variance of averaging, in s^2, that all recordings allow together; empty where the averaging
+/// does not exceed a step of the clock. All recordings of a machine average over the same time, so that they may
+/// determine together what each alone does not.
+std::optional<double> common_rounding_s2(std::span<const SweepRecording> recordings,
+                                         const std::vector<std::optional<DampedFit>>& fits);
+
 /// Fits each recording with what belongs to contact or machine, which is the same in all of them. Where some show a
 /// rise after slips, all are fitted with one, its length to be found together. Where some that state no average show
 /// one, and agree on it, all of these are fitted with the mean of it if half of them show it or they are explained

@@ -47,12 +47,11 @@ std::vector<StickBin> straightened(std::vector<StickBin> bins, const BlockFit& f
       }
     }
   }
-  const auto& reloading = fit.level().reloading;
-  if (!reloading) return bins;
-  const double force = fit.scales().force * fit.parameters.values(kReloadForce);
-  const RiseAfterSlip::Shape shape{std::exp(fit.parameters.values(kReloadLength)), fit.sensor().average_s};
+  const std::optional<CycleRise> rise = fit.model(cycle).rise(fit.parameters.values);
+  if (!rise) return bins;
+  const double force = rise->unit_force * rise->strength;
   for (StickBin& bin : bins) {
-    const RiseAfterSlip::Line line = reloading->over(fit.data(cycle).slip, bin, shape);
+    const RiseAfterSlip::Line line = rise->share.over(bin);
     bin.force -= force * line.mean.value;
     bin.slope -= force * line.slope.value;
   }

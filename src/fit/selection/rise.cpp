@@ -27,9 +27,9 @@ RiseAfterSlip moved(RiseAfterSlip rise, const BlockFit& fit) {
 }
 
 /// The same cycles at the same parameters, with a rise after these slips.
-BlockFit with_rise(const BlockFit& fit, std::shared_ptr<const RiseAfterSlip> rise) {
+BlockFit with_slips(const BlockFit& fit, RiseAfterSlip rise) {
   LevelModel level = fit.level();
-  level.reloading = std::move(rise);
+  level.reloading = std::make_shared<const RiseAfterSlip>(std::move(rise));
   BlockFit other = fit.with_level(std::move(level), fit.scales());
   other.parameters = fit.parameters;
   return other;
@@ -39,7 +39,7 @@ BlockFit with_rise(const BlockFit& fit, std::shared_ptr<const RiseAfterSlip> ris
 std::optional<DampedFit> with_free_length(const Quality& quality, DampedFit fit) {
   RiseAfterSlip rise = moved(*fit.blocks.level().reloading, fit.blocks);
   rise.is_free = true;
-  fit.blocks = with_rise(fit.blocks, std::make_shared<const RiseAfterSlip>(std::move(rise)));
+  fit.blocks = with_slips(fit.blocks, std::move(rise));
   if (!std::isfinite(solve(fit.blocks, {fit.held, false, true}))) return std::nullopt;
   return with_uncertainty(std::move(fit), quality);
 }
@@ -52,7 +52,7 @@ double rise_length_m(const DampedFit& fit) {
 
 BlockFit with_rise_after(const BlockFit& fit) {
   if (!fit.level().reloading) return fit;
-  return with_rise(fit, std::make_shared<const RiseAfterSlip>(moved(*fit.level().reloading, fit)));
+  return with_slips(fit, moved(*fit.level().reloading, fit));
 }
 
 bool rises(const BlockFit& fit) {
@@ -66,7 +66,7 @@ BlockFit with_rise_over(double length_m, const FitInput& input, const BlockFit& 
     rise.slip_begin_s.push_back(input.recording.time_s()[slip.peak]);
     rise.slip_end_s.push_back(input.recording.time_s()[slip.trough]);
   }
-  BlockFit risen = with_rise(fit, std::make_shared<const RiseAfterSlip>(moved(std::move(rise), slips)));
+  BlockFit risen = with_slips(fit, moved(std::move(rise), slips));
   risen.parameters.values(kReloadLength) = std::log(length_m);
   return risen;
 }
@@ -75,7 +75,7 @@ BlockFit with_free_rise(const BlockFit& fit) {
   if (!fit.level().reloading) return fit;
   RiseAfterSlip rise = *fit.level().reloading;
   rise.is_free = true;
-  return with_rise(fit, std::make_shared<const RiseAfterSlip>(std::move(rise)));
+  return with_slips(fit, std::move(rise));
 }
 
 std::optional<DampedFit> settle_rise(const FitInput& input, std::optional<DampedFit> fit) {

@@ -33,7 +33,7 @@ SweepSolution start_of(const SweepData& data, Sharing sharing, FrictionLaw law, 
     const std::ptrdiff_t skip = single.blocks.level().terms > 0 ? 1 : 0;
     std::copy(level.begin() + skip, level.end(), recording.parameters.level.begin() + 1);
     recording.parameters.level[0] = level_of(single) / scales.population->force;
-    recording.parameters.values.segment<2>(kReloadForce) = single.blocks.parameters.values.segment<2>(kReloadForce);
+    recording.parameters.values.segment<4>(kRelaxation) = single.blocks.parameters.values.segment<4>(kRelaxation);
     recording.parameters.values(kDifference) = mean_onset_force(single) / scales.population->force;
     recording.parameters.cycles = single.blocks.parameters.cycles;
     solution.recordings.push_back(std::move(recording));
@@ -44,6 +44,8 @@ SweepSolution start_of(const SweepData& data, Sharing sharing, FrictionLaw law, 
 class SweepFitter {
  public:
   SweepFitter(const SweepData& data, const HeldParameters& held) : data_(data), fixed_(held) {}
+
+  [[nodiscard]] std::optional<SweepSolution> fit_rig(bool grows) const { return fit_coulomb({false, false}, grows); }
 
   [[nodiscard]] std::optional<SweepFits> fit() const {
     constexpr Sharing kAll{true, true};
@@ -183,6 +185,10 @@ class SweepFitter {
 };
 
 }  // namespace
+
+std::optional<SweepSolution> fit_rig(const SweepData& data, const HeldParameters& held, bool stiffness_grows) {
+  return SweepFitter(data, held).fit_rig(stiffness_grows);
+}
 
 std::optional<SweepFits> solve_sweep(const SweepData& data, const FitOptions& options) {
   if (!data.mass) return SweepFitter(data, options.held).fit();

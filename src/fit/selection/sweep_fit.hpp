@@ -19,6 +19,9 @@ struct SweepFits {
   bool depends_on_speed = false;  ///< velocity explains more than chance would
 };
 
+/// Coulomb friction that the recordings do not share: they share the rig alone, with k that goes with the speed or not.
+std::optional<SweepSolution> fit_rig(const SweepData& data, const HeldParameters& held, bool stiffness_grows = false);
+
 /// Both laws, with everything shared between the recordings that the data agree with. Empty where no start converges.
 std::optional<SweepFits> solve_sweep(const SweepData& data, const FitOptions& options);
 

@@ -108,6 +108,16 @@ std::optional<Reloading> reloading(const std::string& file, const JsonNode& docu
   return reloading;
 }
 
+std::optional<RelaxingSpring> relaxing(const std::string& file, const JsonNode& document) {
+  const std::optional<JsonNode> correlation = document.known("correlation");
+  if (!correlation || !find_row(correlation->member("names"), key_of(ParameterId::Relaxation))) return std::nullopt;
+  const RelaxingSpring relaxing{working_value(file, document, key_of(ParameterId::Relaxation)),
+                                working_value(file, document, key_of(ParameterId::RelaxationTime))};
+  if (!(relaxing.share >= 0.0 && relaxing.share < 1.0)) cannot_predict(file, "relaxation is not between 0 and 1");
+  if (!(relaxing.time_s > 0.0)) cannot_predict(file, "relaxation_time_s is not above 0");
+  return relaxing;
+}
+
 std::optional<StiffnessTrend> stiffness_trend(const std::string& file, const JsonNode& document) {
   const auto speed = document.known("model", "stiffness_speed_m_per_s");
   if (!speed) return std::nullopt;
@@ -210,6 +220,7 @@ FitDocument fit_document_from(const JsonNode& document, const std::string& name)
   estimate.ageing = ageing(name, document);
   estimate.reloading = reloading(name, document);
   estimate.stiffness_trend = stiffness_trend(name, document);
+  estimate.relaxing = relaxing(name, document);
   estimate.damping_identified = damping_identified(parameters.member(key_of(ParameterId::DampingRatio)));
   estimate.degrees_of_freedom = degrees_of_freedom(document);
   read_covariance(document, result.model);

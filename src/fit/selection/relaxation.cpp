@@ -1,0 +1,201 @@
+#include "fit/selection/relaxation.hpp"
+
+#include <algorithm>
+#include <array>
+#include <boost/math/distributions/chi_squared.hpp>
+#include <cmath>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "core/fit_thresholds.hpp"
+#include "core/quantile.hpp"
+#include "core/thresholds.hpp"
+#include "fit/inference/smoothing.hpp"
+#include "fit/selection/law_choice.hpp"
+#include "fit/selection/own_fits.hpp"
+#include "fit/selection/sweep_fit.hpp"
+#include "fit/selection/tiers.hpp"
+
+namespace slipfit::fit {
+namespace {
+
+/// Times of relaxation to begin with, between the shortest stick of the sweep (0) and the longest (1), in logarithms.
+constexpr std::array kStartTimes{-0.3, 0.2, 0.6, 1.0};
+constexpr double kStartRelaxation = 0.3;
+constexpr int kRounds = 2;            // of sticks between the slips of the solution before
+constexpr double kLongestTime = 2.0;  // of the longest stick: what relaxes later is at rest in all recordings
+
+double speed_of(const DampedFit& fit) {
+  return fit.blocks.scales().speed_m_per_s;
+}
+
+bool shows_rise(const DampedFit& fit) {
+  const auto rises = [](const Coordinates& rival) { return rival(kReloadForce) > 0.0; };
+  return fit.blocks.level().reloading || std::any_of(fit.rivals.begin(), fit.rivals.end(), rises);
+}
+
+/// k differs between the recordings by more than its errors explain.
+bool stiffness_differs(const SweepData& data) {
+  double weights = 0.0;
+  double sum = 0.0;
+  double squares = 0.0;
+  for (const std::size_t i : data.fitted) {
+    const double error = error_of(*data.single[i], kLogStiffness);
+    if (!(error > 0.0)) return false;
+    const double value = data.single[i]->blocks.parameters.values(kLogStiffness);
+    weights += 1.0 / (error * error);
+    sum += value / (error * error);
+    squares += value * value / (error * error);
+  }
+  const boost::math::chi_squared_distribution<double> by_chance(static_cast<double>(data.fitted.size()) - 1.0);
+  return boost::math::cdf(boost::math::complement(by_chance, std::max(0.0, squares - sum * sum / weights))) <
+         thresholds::kLawChance;
+}
+
+bool may_relax(const SweepData& data, const HeldParameters& held) {
+  if (held.stiffness_N_per_m || data.fitted.size() < 2) return false;
+  std::vector<double> speeds;
+  for (const std::size_t i : data.fitted) speeds.push_back(speed_of(*data.single[i]));
+  if (!(ratio_of_ends(speeds) > thresholds::kTrendSpeedRatio)) return false;
+  const bool rises =
+      std::any_of(data.fitted.begin(), data.fitted.end(), [&](std::size_t i) { return shows_rise(*data.single[i]); });
+  return rises || stiffness_differs(data);
+}
+
+/// Slope of the whole stick: what the rise regains is part of it.
+double log_secant(const BlockFit& fit, double stick_m) {
+  const double log_stiffness = fit.parameters.values(kLogStiffness);
+  if (!fit.level().reloading) return log_stiffness;
+  const double rise = fit.scales().force * fit.parameters.values(kReloadForce) *
+                      -std::expm1(-stick_m / std::exp(fit.parameters.values(kReloadLength)));
+  return std::log(std::exp(log_stiffness) + std::max(0.0, rise) / stick_m);
+}
+
+RelaxingCycles typical_cycles(const BlockFit& fit, double longest_s) {
+  const double omega = std::exp(fit.parameters.values(kLogFrequency));
+  return {omega * median_slip_s(fit), omega * median_period_s(fit), longest_s};
+}
+
+/// The recordings, their springs relaxing in this time to begin with, their sticks else straight.
+SweepData relaxing_in(double time_s, double longest_s, SweepData data) {
+  for (const std::size_t i : data.fitted) {
+    data.single[i]->continuous = false;  // ramps that bend are not joined
+    BlockFit& blocks = data.single[i]->blocks;
+    Scales scales = blocks.scales();
+    scales.relaxing = typical_cycles(blocks, longest_s);
+    const Parameters own = blocks.parameters;
+    const double secant = log_secant(blocks, scales.speed_m_per_s * median_stick_s(blocks));
+    LevelModel level = blocks.level();
+    level.reloading = nullptr;
+    blocks = blocks.with_level(std::move(level), scales);
+    blocks.parameters = own;
+    blocks.parameters.values(kReloadForce) = blocks.parameters.values(kReloadLength) = 0.0;
+    blocks.parameters.values(kLogStiffness) = secant;
+    blocks.parameters.values(kRelaxation) = kStartRelaxation;
+    blocks.parameters.values(kRelaxationTime) = std::log(time_s);
+  }
+  return data;
+}
+
+/// The recordings at this solution, with its typical cycles.
+SweepData at_solution(const SweepSolution& solution, SweepData data) {
+  for (std::size_t r = 0; r < data.fitted.size(); ++r) {
+    const BlockFit& solved = solution.recordings[r];
+    BlockFit& blocks = data.single[data.fitted[r]]->blocks;
+    Scales scales = blocks.scales();
+    scales.relaxing = typical_cycles(solved, scales.relaxing->longest_s);
+    blocks = blocks.with_scales(scales);
+    blocks.parameters.values.head<3>() = solved.parameters.values.head<3>();
+    blocks.parameters.values.segment<2>(kRelaxation) = solved.parameters.values.segment<2>(kRelaxation);
+    blocks.parameters.cycles = solved.parameters.cycles;
+  }
+  return data;
+}
+
+/// Common parameters that the data determine.
+double freedom_of(const SweepSolution& solution) {
+  const CommonColumns columns(solution.problem());
+  return static_cast<double>(columns.size()) - static_cast<double>(columns.held(solution.held).size());
+}
+
+/// The recordings without an average that nobody stated: a spring that relaxes in a slip rounds it, too.
+SweepData without_average(SweepData data) {
+  for (const std::size_t i : data.fitted) {
+    DampedFit& fit = *data.single[i];
+    if (!fit.average) continue;
+    Scales scales = fit.blocks.scales();
+    scales.sensor_average_s = 0.0;
+    scales.free_time = FreeTime::None;
+    fit.blocks = fit.blocks.with_scales(scales);
+    fit.average.reset();
+    fit.fall_doubt.clear();
+  }
+  data.average.reset();
+  return data;
+}
+
+/// The recordings with a spring that relaxes, and the fit of the rig to them.
+struct Relaxing {
+  SweepData data;
+  SweepSolution solution;
+};
+std::optional<Relaxing> best_of_starts(const SweepData& data, const HeldParameters& held) {
+  std::vector<double> sticks_s;
+  for (const std::size_t i : data.fitted) sticks_s.push_back(median_stick_s(data.single[i]->blocks));
+  const auto [shortest, longest] = std::minmax_element(sticks_s.begin(), sticks_s.end());
+  std::optional<Relaxing> best;
+  for (const double place : kStartTimes) {
+    const double time_s = *shortest * std::pow(*longest / *shortest, place);
+    SweepData relaxing = relaxing_in(time_s, kLongestTime * *longest, data);
+    std::optional<SweepSolution> next = fit_rig(relaxing, held);
+    if (!next || (best && !(next->chi2 < best->solution.chi2))) continue;
+    best.emplace(std::move(relaxing), *std::move(next));
+  }
+  for (int round = 0; best && round < kRounds; ++round) {
+    best->data = at_solution(best->solution, std::move(best->data));
+    std::optional<SweepSolution> next = fit_rig(best->data, held);
+    if (!next) return std::nullopt;
+    best->solution = *std::move(next);
+  }
+  return best;
+}
+
+/// By how much less a fit of the rig misses, less the price of the parameters that it has more.
+double gain_of(const SweepSolution& fit, const SweepSolution& other) {
+  const double variance = std::max(1.0, fit.chi2 / fit.degrees_of_freedom);
+  return (other.chi2 - fit.chi2) / variance - 2.0 * (freedom_of(fit) - freedom_of(other));
+}
+
+}  // namespace
+
+SweepData with_relaxation(SweepData data, std::span<const SweepRecording> recordings, const HeldParameters& held) {
+  if (!may_relax(data, held)) return data;
+  const std::optional<SweepSolution> plain = fit_rig(data, held);
+  const std::optional<SweepSolution> growing = fit_rig(data, held, true);
+  if (!plain || !growing) return data;
+  std::optional<Relaxing> best = best_of_starts(data, held);
+  if (data.average) {
+    std::optional<Relaxing> instead = best_of_starts(without_average(data), held);
+    if (instead && (!best || !(gain_of(best->solution, instead->solution) > thresholds::kTierPrice))) {
+      best = std::move(instead);
+    }
+  }
+  const auto exceeds = [&](const SweepSolution& other) {
+    return gain_of(best->solution, other) > thresholds::kTierPrice;
+  };
+  // A wrong speed or file bends what goes with the speed, too, but leaves a misfit.
+  if (!best || is_misfit(best->solution) || !exceeds(*plain) || !exceeds(*growing)) return data;
+  for (std::size_t r = 0; r < data.fitted.size(); ++r) {
+    const std::size_t i = data.fitted[r];
+    DampedFit& fit = *best->data.single[i];
+    if (fit.rounding) {
+      fit.rounding = estimate_smoothing(best->solution.recordings[r], best->solution.held,
+                                        recordings[i].recording.sample_interval_s());
+    }
+  }
+  if (!best->data.average) best->data.rounding_s2 = common_rounding_s2(recordings, best->data.single);
+  return std::move(best->data);
+}
+
+}  // namespace slipfit::fit
