@@ -5,7 +5,6 @@
 #include "report/document/check_document.hpp"
 #include "report/quantities.hpp"
 #include "slipfit/compare.hpp"
-#include "slipfit/fit/parameter.hpp"
 
 namespace slipfit {
 namespace {
@@ -14,18 +13,16 @@ using documents::JsonNode;
 
 std::vector<ComparedQuantity> make_quantities() {
   std::vector<ComparedQuantity> quantities;
-  for (const ParameterInfo& parameter : parameter_table()) {
-    if (parameter.id == ParameterId::SensorAverage) continue;  // of the instrument
+  const auto add = [&quantities](const Quantity& quantity) {
     quantities.push_back(
-        {"parameters", std::string(parameter.key), std::string(parameter.words), std::string(parameter.unit)});
+        {std::string(quantity.section), std::string(quantity.key), full_words(quantity), std::string(quantity.unit)});
+  };
+  for (const Quantity& quantity : recording_quantities()) {
+    if (quantity.section == "parameters" && quantity.key != info(ParameterId::SensorAverage).key) add(quantity);
   }
-  quantities.push_back({"frequency", "frequency_Hz", "frequency of the slips", "Hz"});
-  const auto& spacing = kMeasured.front();  // the other is its inverse
-  quantities.push_back({"derived", std::string(spacing.key), std::string(spacing.words), std::string(spacing.unit)});
-  for (const auto& row : kCoefficients) {
-    quantities.push_back({"coefficients", std::string(row.key),
-                          "coefficient of friction (" + std::string(row.words) + ")", std::string(row.unit)});
-  }
+  add(kFrequency);
+  add(kMeasured.front());  // the others are its inverse and its spread
+  for (const Quantity& quantity : kCoefficients) add(quantity);
   return quantities;
 }
 

@@ -57,13 +57,6 @@ std::optional<double> uncertainty_of(const Estimate& estimate) {
 }
 
 /// The unit that suits the estimate, or the end of its interval.
-DisplayUnit unit_for(const Estimate& estimate, const std::string& SI_unit) {
-  std::optional<double> typical = estimate.value;
-  if (!typical && estimate.ci95) typical = estimate.ci95->high;
-  if (typical && estimate.standard_error) typical = std::max(std::abs(*typical), *estimate.standard_error);
-  return display_unit(SI_unit, typical);
-}
-
 }  // namespace
 
 std::size_t shown_width(std::string_view text) {
@@ -104,6 +97,13 @@ DisplayUnit display_unit(const std::string& SI_unit, std::optional<double> typic
   return {1e9 * base_per_SI, "n" + base};
 }
 
+DisplayUnit suitable_unit(const Estimate& estimate, const std::string& SI_unit) {
+  std::optional<double> typical = estimate.value;
+  if (!typical && estimate.ci95) typical = estimate.ci95->high;
+  if (typical && estimate.standard_error) typical = std::max(std::abs(*typical), *estimate.standard_error);
+  return display_unit(SI_unit, typical);
+}
+
 DisplayUnit speed_unit(const std::string& given, std::optional<double> typical_m_per_s) {
   if (!given.empty()) {
     if (const auto unit = parse_unit(given, Dimension::Speed)) return {1.0 / unit.value().scale, given};
@@ -124,7 +124,7 @@ std::string force_unit(ForceQuantity quantity) {
 }
 
 EstimateRow estimate_row(const Estimate& estimate, const std::string& SI_unit) {
-  return estimate_row(estimate, unit_for(estimate, SI_unit));
+  return estimate_row(estimate, suitable_unit(estimate, SI_unit));
 }
 
 std::string estimate_text(const Estimate& estimate, const DisplayUnit& unit) {
@@ -134,7 +134,7 @@ std::string estimate_text(const Estimate& estimate, const DisplayUnit& unit) {
 }
 
 std::string estimate_text(const Estimate& estimate, const std::string& SI_unit) {
-  return estimate_text(estimate, unit_for(estimate, SI_unit));
+  return estimate_text(estimate, suitable_unit(estimate, SI_unit));
 }
 
 EstimateRow estimate_row(const Estimate& SI, const DisplayUnit& unit) {

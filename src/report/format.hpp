@@ -26,6 +26,9 @@ struct DisplayUnit {
 /// Prefixes for m, m/s, s, N and kg (from nano to the unit itself); 1/m becomes 1/mm; other units stay.
 DisplayUnit display_unit(const std::string& SI_unit, std::optional<double> typical);
 
+/// Returns the unit that suits value and standard error of an estimate, else its interval.
+DisplayUnit suitable_unit(const Estimate& estimate, const std::string& SI_unit);
+
 /// The unit that the speed was given in; where none is known, the one that suits `typical_m_per_s`.
 DisplayUnit speed_unit(const std::string& given, std::optional<double> typical_m_per_s);
 

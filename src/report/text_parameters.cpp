@@ -5,6 +5,7 @@
 
 #include "report/blocks.hpp"
 #include "report/names.hpp"
+#include "report/quantities.hpp"
 #include "report/text_sections.hpp"
 #include "slipfit/core/printable.hpp"
 #include "slipfit/report/sweep.hpp"
@@ -45,7 +46,7 @@ std::string statuses_text(const std::vector<Parameter>& parameters) {
 }  // namespace
 
 std::string critical_speed_text(const Estimate& speed_m_per_s, const Estimate& lambda, const std::string& given_unit) {
-  std::string text = "  critical speed: ";
+  std::string text = fmt::format("  {}: ", quantity_with_key("critical_speed_m_per_s").words);
   const std::string& note = speed_m_per_s.note;
   if (!speed_m_per_s.value) return text + (note.empty() ? "not known" : printable(note)) + "\n";
   text += estimate_text(speed_m_per_s, speed_unit(given_unit, speed_m_per_s.value));
@@ -109,8 +110,8 @@ namespace {
 
 std::string recordings_text(std::span<const SweepEntry> entries, const SweepAnalysis& sweep) {
   Table table({Align::Left, Align::Right, Align::Left, Align::Left, Align::Left, Align::Left, Align::Right});
-  table.add(
-      {"recording", "speed", "shows", "kinetic friction", "spacing measured (V/f)", "predicted without it", "off by"});
+  table.add({"recording", "speed", "shows", "kinetic friction", std::string(kMeasured.front().words),
+             "predicted without it", "off by"});
   for (std::size_t i = 0; i < entries.size(); ++i) {
     const SweepPoint* point = sweep.fit ? &sweep.fit->points[i] : nullptr;
     const Estimate& measured = sweep.recordings[i].derived.pattern_spacing_m;

@@ -228,7 +228,7 @@ test("every kind of page prints all of its charts", async () => {
   assert.deepEqual(await printedCharts(shot("print-surface.html")), ["profile"]);
 });
 
-const kDistributions = ["frequencies", "spacings", "stiffnesses", "differences", "damping-ratios"];
+const kDistributions = ["frequency_Hz", "pattern_spacing_m", "stiffness_N_per_m", "friction_difference_N", "damping_ratio"];
 
 /** The recording with hum of 50 Hz and a line of another origin. */
 function addHum(file, name) {

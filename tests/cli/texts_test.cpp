@@ -88,5 +88,5 @@ TEST_CASE("the default text is one screen, and it names the way to all results")
   REQUIRE(run.exit_code == 0);
   CHECK(std::count(run.out.begin(), run.out.end(), '\n') <= 25);
   CHECK_THAT(run.out, Contains("friction drop F_s - F_k") && Contains("conditional (1)") && Contains("--details"));
-  CHECK_THAT(run.out, Contains("spacing of the pattern V/f") && !Contains("Frequency\n"));
+  CHECK_THAT(run.out, Contains("pattern spacing V/f") && !Contains("Frequency\n"));
 }

@@ -15,27 +15,26 @@
 #include "report/html/page.hpp"
 #include "report/html/scaling.hpp"
 #include "report/json_values.hpp"
+#include "report/quantities.hpp"
 
 namespace slipfit {
 namespace html {
 namespace {
 
-/// A quantity of the table, in one unit so that rows compare by eye, and its distribution.
+/// A quantity of the table, in one unit so that rows compare by eye, and of the distributions.
 struct BatchColumn {
-  const char* heading = nullptr;
+  std::string_view key;  ///< of the document
   const char* unit = nullptr;
   double per_SI = 1.0;
-  const char* place = nullptr;   ///< in the document
-  const char* suffix = nullptr;  ///< of the keys there
-  const char* id = nullptr;      ///< of the distribution
+
+  [[nodiscard]] std::string heading() const { return label_with_unit(std::string(quantity_with_key(key).words), unit); }
 };
 
-constexpr std::array<BatchColumn, 5> kColumns{
-    {{"frequency", "Hz", 1.0, "/frequency", "_Hz", "frequencies"},
-     {"pattern spacing V/f", "mm", 1e3, "/derived/pattern_spacing_m", "", "spacings"},
-     {"stiffness", "N/m", 1.0, "/parameters/stiffness_N_per_m", "", "stiffnesses"},
-     {"F_s - F_k", "N", 1.0, "/parameters/friction_difference_N", "", "differences"},
-     {"damping ratio", "-", 1.0, "/parameters/damping_ratio", "", "damping-ratios"}}};
+constexpr std::array<BatchColumn, 5> kColumns{{{"frequency_Hz", "Hz", 1.0},
+                                               {"pattern_spacing_m", "mm", 1e3},
+                                               {"stiffness_N_per_m", "N/m", 1.0},
+                                               {"friction_difference_N", "N", 1.0},
+                                               {"damping_ratio", "-", 1.0}}};
 
 constexpr std::size_t kMostRows = 10000;
 constexpr std::size_t kRowsAtOnce = 500;         // laid out; the script shows more of them on demand
@@ -110,11 +109,11 @@ std::string distributions(const std::vector<BatchPageRow>& rows) {
       const std::optional<double>& value = row.quantities[i].estimate.value;
       if (!is_group(row) && value) values.push_back(column.per_SI * *value);
     }
-    const std::string label = label_with_unit(column.heading, column.unit);
+    const std::string label = column.heading();
     const auto panel = histogram(std::move(values), label);
     if (!panel) continue;
-    const std::string picture =
-        picture_of(chart::Chart{"", {}, {*panel}, kDistributionWidth_px}, column.id, "histogram of the " + label);
+    const std::string picture = picture_of(chart::Chart{"", {}, {*panel}, kDistributionWidth_px},
+                                           std::string(column.key), "histogram of the " + label);
     figures += "<figure>" + picture + "</figure>\n";
   }
   if (figures.empty()) return {};
@@ -156,9 +155,10 @@ std::vector<std::string> codes_in(const Json& warnings) {
 
 /// Returns a quantity of a document, or nothing if it is absent; a bounded parameter keeps only its interval.
 BatchPageQuantity quantity_in(const Json& document, const BatchColumn& column) {
-  const Json::json_pointer place(column.place);
-  const Json json = document.contains(place) ? document.at(place) : Json();
-  BatchPageQuantity quantity{estimate_in(json, column.suffix), text_in(json, "status")};
+  const bool is_frequency = column.key == kFrequency.key;  // a section of its own
+  const Json section = child(document, std::string(quantity_with_key(column.key).section));
+  const Json json = is_frequency ? section : child(section, std::string(column.key));
+  BatchPageQuantity quantity{estimate_in(json, is_frequency ? "_Hz" : ""), text_in(json, "status")};
   if (quantity.status == "bounded" || quantity.status == "unidentified") quantity.estimate.value.reset();
   return quantity;
 }
@@ -191,7 +191,7 @@ std::string batch_headings() {
   std::string cells = heading("recording", "") + "<th scope=\"col\">trace</th>" + heading("shows", "") +
                       heading("speed [mm/s]", "number");
   for (const BatchColumn& column : kColumns) {
-    cells += heading(label_with_unit(column.heading, column.unit), "number");
+    cells += heading(column.heading(), "number");
   }
   return "<thead><tr>" + cells + heading("warnings", "") + "</tr></thead>\n";
 }

@@ -12,6 +12,7 @@
 #include "report/html/scaling.hpp"
 #include "report/html/sweep_figures.hpp"
 #include "report/names.hpp"
+#include "report/quantities.hpp"
 #include "report/text_sections.hpp"
 #include "slipfit/report/sweep_html.hpp"
 
@@ -95,7 +96,7 @@ std::string recordings_of(const SweepSource& source) {
   const SweepUnits units = units_of(source);
   std::vector<std::string> columns{"recording", label_with_unit("#speed", units.speed.unit), "shows"};
   if (has_surface_spacing(source)) columns.push_back(label_with_unit("#spacing on the surface", units.spacing.unit));
-  columns.insert(columns.end(), {label_with_unit("#spacing measured, V/f", units.spacing.unit),
+  columns.insert(columns.end(), {label_with_unit("#" + std::string(kMeasured.front().words), units.spacing.unit),
                                  label_with_unit("#predicted without it", units.spacing.unit), "#off by"});
   if (source.sweep.fit && source.sweep.fit->result.estimate) {
     columns.insert(columns.end(), {"#k without it", "#F_s \u2212 F_k without it"});
