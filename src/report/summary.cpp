@@ -297,11 +297,9 @@ std::string to_summary(const Recording& recording, const Analysis& analysis) {
   const Derived& derived = analysis.derived;
   screen.add_measured(kMeasured.front(), derived.pattern_spacing_m, conditions);
   if (const Estimate& critical = derived.critical_speed_m_per_s; critical.value) {
-    const Parameter* const zeta = has_fit ? analysis.fit->find(ParameterId::DampingRatio) : nullptr;
     const Quantity& quantity = quantity_with_key("critical_speed_m_per_s");
-    screen.add_row(quantity.words, estimate_row(quantity, critical, conditions),
-                   zeta != nullptr ? std::string(name_of(zeta->status)) : std::string("derived"),
-                   zeta != nullptr ? zeta->estimate.note : critical.note);
+    const StatusAndNote known = critical_speed_status(analysis);
+    screen.add_row(quantity.words, estimate_row(quantity, critical, conditions), known.status, known.note);
   }
   if (analysis.coefficients) {
     for (const auto& row : kCoefficients) screen.add_measured(row, row.of(*analysis.coefficients), conditions);

@@ -31,19 +31,18 @@ std::string notes_text(const std::vector<Parameter>& parameters) {
   return text;
 }
 
-/// Each status that occurs, but for `identified`, once.
-std::string statuses_text(const std::vector<Parameter>& parameters) {
-  std::string text;
+}  // namespace
+
+std::vector<std::string> status_meanings(const std::vector<Parameter>& parameters) {
+  std::vector<std::string> meanings;
   for (const auto status : {ParameterStatus::Weak, ParameterStatus::Bounded, ParameterStatus::Unidentified,
                             ParameterStatus::Conditional, ParameterStatus::Fixed}) {
     const bool occurs =
         std::ranges::any_of(parameters, [status](const Parameter& parameter) { return parameter.status == status; });
-    if (occurs) text += fmt::format("  {}: {}\n", name_of(status), words_for_status(status));
+    if (occurs) meanings.push_back(fmt::format("{}: {}", name_of(status), words_for_status(status)));
   }
-  return text;
+  return meanings;
 }
-
-}  // namespace
 
 std::string critical_speed_text(const Estimate& speed_m_per_s, const Estimate& lambda, const std::string& given_unit) {
   std::string text = fmt::format("  {}: ", quantity_with_key("critical_speed_m_per_s").words);
@@ -52,6 +51,13 @@ std::string critical_speed_text(const Estimate& speed_m_per_s, const Estimate& l
   text += estimate_text(speed_m_per_s, speed_unit(given_unit, speed_m_per_s.value));
   if (!note.empty()) return text + "\n  " + printable(note) + "\n";
   return text + fmt::format(", lambda there {}\n", estimate_text(lambda, display_unit("", {})));
+}
+
+StatusAndNote critical_speed_status(const Analysis& analysis) {
+  const bool has_fit = analysis.fit && analysis.motion != MotionClass::SteadySliding;
+  const Parameter* const zeta = has_fit ? analysis.fit->find(ParameterId::DampingRatio) : nullptr;
+  if (zeta == nullptr) return {"derived", analysis.derived.critical_speed_m_per_s.note};
+  return {std::string(name_of(zeta->status)), zeta->estimate.note};
 }
 
 std::string off_by(const Estimate& predicted, const Estimate& measured) {
@@ -92,8 +98,9 @@ std::string parameters_text(const FitResult& fit, ForceQuantity quantity, const 
     const EstimateRow& numbers = parameter.numbers;
     table.add({parameter.words, numbers.value, numbers.unit, numbers.interval, std::string(name_of(parameter.status))});
   }
-  return fmt::format("\nParameters{}\n", caution) + table.text() + notes_text(fit.parameters) +
-         statuses_text(fit.parameters) + text_of(models_block(fit, quantity));
+  std::string text = fmt::format("\nParameters{}\n", caution) + table.text() + notes_text(fit.parameters);
+  for (const std::string& meaning : status_meanings(fit.parameters)) text += "  " + meaning + "\n";
+  return text + text_of(models_block(fit, quantity));
 }
 
 std::string parameters_text(const Recording& recording, const Analysis& analysis) {

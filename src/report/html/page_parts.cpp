@@ -47,7 +47,8 @@ std::string key_critical_speed(const Source& source) {
   const Quantity& quantity = quantity_with_key("critical_speed_m_per_s");
   const bool sticks = source.analysis.motion == MotionClass::StickSlip;
   return key_number(quantity.words, estimate_row(quantity, source.analysis.derived.critical_speed_m_per_s, conditions),
-                    {}, sticks ? "above " + speed_text(conditions) : "not known");
+                    critical_speed_status(source.analysis).status,
+                    sticks ? "above " + speed_text(conditions) : "not known");
 }
 
 std::vector<std::string> each(const std::vector<std::string>& sentences, std::string (*to_markup)(std::string_view)) {
@@ -137,10 +138,10 @@ std::string parameter_table(const FitResult& fit) {
         parameter.note.empty() ? "" : "<span class=\"note\">" + formula_text(parameter.note) + "</span>";
     rows.push_back({formula_text(parameter.words), text(parameter.numbers.value), text(parameter.numbers.unit),
                     text(parameter.numbers.interval),
-                    fmt::format("<span class=\"status {0}\">{0}</span>: {1}{2}", name_of(parameter.status),
-                                words_for_status(parameter.status), note)});
+                    fmt::format("<span class=\"status {0}\">{0}</span>{1}", name_of(parameter.status), note)});
   }
-  return table(" class=\"parameters\"", {"parameter", "#value", "~unit", "~95 % interval", "status"}, rows);
+  return table(" class=\"parameters\"", {"parameter", "#value", "~unit", "~95 % interval", "status"}, rows) +
+         list(each(status_meanings(fit.parameters), text));
 }
 
 std::string block_content(const Block& block) {
@@ -172,8 +173,7 @@ std::string parameters_part(const Source& source) {
   }
   const FitResult& fit = *analysis.fit;
   const bool is_doubtful = analysis.motion == MotionClass::Undetermined;
-  return part((is_doubtful ? "<p>Unreliable: the motion may not be stick-slip.</p>\n" : "") + parameter_table(fit)) +
-         block_part(models_block(fit, source.recording.conditions().quantity));
+  return part((is_doubtful ? "<p>Unreliable: the motion may not be stick-slip.</p>\n" : "") + parameter_table(fit));
 }
 
 std::string repeat_part(const Source& source, const ReportOrigin& origin) {
