@@ -135,9 +135,9 @@ void check_extent(const Rows& rows, const LoadedFile& file) {
   if (rows.time_s.size() >= 2) return;
   const std::string held = counted(rows.time_s.size(), "sample");
   if (file.options.window && rows.clock) {
-    throw ThrownError(
-        {"window_empty", fmt::format("{}: the window {}:{} s contains {}; {}", file.name, file.options.window->begin_s,
-                                     file.options.window->end_s, held, clock_range(rows))});
+    throw ThrownError({"window_empty",
+                       fmt::format("{}: the window {}:{} s contains {}; {}; choose another with --window", file.name,
+                                   file.options.window->begin_s, file.options.window->end_s, held, clock_range(rows))});
   }
   const auto& where = file.choice.where;
   if (!file.options.rows && !where) return;
