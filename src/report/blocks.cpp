@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "report/names.hpp"
 #include "report/quantities.hpp"
@@ -244,6 +245,24 @@ Block models_block(const FitResult& fit, ForceQuantity quantity) {
   block.sentences.push_back(residual);
   if (fit.residual.whiteness_p) block.sentences.push_back(whiteness_sentence(*fit.residual.whiteness_p));
   for (const std::string& condition : fit.conditional_on) block.sentences.push_back("assumed: " + printable(condition));
+  return block;
+}
+
+Block correlations_block(const FitResult& fit) {
+  constexpr double kWorthShowing = 0.7;  // half of the variance of one follows from the other
+  Block block{"correlations", "Correlated parameters"};
+  if (!fit.correlation) return block;
+  const auto& [names, matrix] = *fit.correlation;
+  std::vector<std::pair<double, std::string>> pairs;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (std::abs(matrix[i][j]) < kWorthShowing) continue;
+      pairs.emplace_back(matrix[i][j],
+                         fmt::format("{}; {}", quantity_with_key(names[j]).words, quantity_with_key(names[i]).words));
+    }
+  }
+  std::ranges::stable_sort(pairs, [](const auto& a, const auto& b) { return std::abs(a.first) > std::abs(b.first); });
+  for (const auto& [correlation, words] : pairs) block.rows.push_back({words, fmt::format("{:+.3f}", correlation)});
   return block;
 }
 

@@ -100,7 +100,7 @@ std::string parameters_text(const FitResult& fit, ForceQuantity quantity, const 
   }
   std::string text = fmt::format("\nParameters{}\n", caution) + table.text() + notes_text(fit.parameters);
   for (const std::string& meaning : status_meanings(fit.parameters)) text += "  " + meaning + "\n";
-  return text + text_of(models_block(fit, quantity));
+  return text + text_of(models_block(fit, quantity)) + text_of(correlations_block(fit));
 }
 
 std::string parameters_text(const Recording& recording, const Analysis& analysis) {

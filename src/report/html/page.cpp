@@ -66,10 +66,11 @@ std::string figures_part(std::span<const Figure> figures) {
   return parts + section(" id=\"absent\"", "Charts that are not available", fact_list(absent));
 }
 
-/// The models that were compared; nothing in steady sliding.
+/// The models that were compared, and correlated parameters; nothing in steady sliding.
 std::string models_part(const Source& source) {
   if (!source.analysis.fit || !shows_cycles(source.analysis)) return {};
-  return block_part(models_block(*source.analysis.fit, source.recording.conditions().quantity));
+  const FitResult& fit = *source.analysis.fit;
+  return block_part(models_block(fit, source.recording.conditions().quantity)) + block_part(correlations_block(fit));
 }
 
 /// Tables that the text report has, too, folded away.

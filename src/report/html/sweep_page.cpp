@@ -36,7 +36,8 @@ std::string sweep_sentence(const SweepSource& source) {
 std::string parameters_of(const SweepAnalysis& sweep) {
   return section(" id=\"parameters\"", "Parameters of all recordings",
                  sweep.fit ? parameter_table(sweep.fit->result)
-                           : "<p class=\"absent\">" + formula_text(sweep.fit_reason) + "</p>\n");
+                           : "<p class=\"absent\">" + formula_text(sweep.fit_reason) + "</p>\n") +
+         (sweep.fit ? block_part(correlations_block(sweep.fit->result)) : std::string());
 }
 
 /// One unit a column: rows compare by eye.
