@@ -47,6 +47,8 @@ struct Figure {
 };
 
 Figure trace_figure(const Source& source);
+/// Returns the trace, called `name`, with its fit and the residual below it, for pages of several recordings.
+std::vector<chart::Panel> small_trace(const Source& source, const std::string& name);
 Figure spectrum_figure(const Source& source);
 Figure cycles_figure(const Source& source);
 Figure evolution_figure(const Source& source);

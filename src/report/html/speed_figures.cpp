@@ -1,5 +1,4 @@
 #include "report/html/sweep_figures.hpp"
-#include "report/quantities.hpp"
 
 #include <fmt/format.h>
 
@@ -16,7 +15,6 @@ namespace {
 using chart::Colour, chart::Panel, chart::Point, chart::Shape, chart::Stroke;
 
 constexpr double kGap = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t kSweepColumns = 610;
 constexpr std::size_t kTracesOfPicture = 4;  // no more fit on a printed page
 constexpr double kFarthestBound = 5.0;       // factor; what reaches further is cut at the axis
 
@@ -303,45 +301,6 @@ Figure sweep_friction_figure(const SweepSource& source) {
   return figure;
 }
 
-namespace {
-
-/// A line over the time of a recording, and the axis that suits it.
-Panel panel_over_time(const Recording& recording, chart::Line line, std::span<const double> values,
-                      const std::string& label) {
-  const DisplayUnit unit = force_unit_of(recording);
-  line.points = envelope(recording.time_s(), values, kSweepColumns);
-  Span heights;
-  for (Point& point : line.points) {
-    point.y *= unit.per_SI;
-    heights.add(point.y);
-  }
-  Panel panel;
-  panel.x = {"time [s]", recording.time_s().front(), recording.time_s().back()};
-  panel.y = heights.linear_axis(label_with_unit(label, unit.unit));
-  panel.lines.push_back(std::move(line));
-  return panel;
-}
-
-/// The trace with the recording's own fit, and the residual below it.
-std::vector<Panel> trace_panels(const SweepEntry& entry, const Analysis& analysis) {
-  const Recording& recording = entry.recording;
-  const std::string name = fmt::format("{}, {}", entry.id, speed_text(recording.conditions()));
-  std::vector<Panel> panels{
-      panel_over_time(recording, {name, Colour::Grey, Stroke::Solid, {}, 1.0}, recording.force(), "force")};
-  panels.front().height_px = 80.0;
-  if (!has_fitted_curve(analysis)) return panels;
-  std::vector<double> values = fitted_force(recording, analysis);
-  Panel fit = panel_over_time(recording, {"fit", Colour::Vermillion, Stroke::Solid, {}, 1.0}, values, "force");
-  panels.front().lines.push_back(std::move(fit.lines.front()));
-  for (std::size_t i = 0; i < values.size(); ++i) values[i] = recording.force()[i] - values[i];
-  panels.push_back(panel_over_time(recording, {"", Colour::Blue, Stroke::Solid, {}, 1.0}, values, "residual"));
-  panels.back().height_px = 75.0;
-  panels.front().x.label.clear();  // it is below the residual
-  return panels;
-}
-
-}  // namespace
-
 std::vector<Figure> sweep_traces_figures(const SweepSource& source) {
   std::vector<Figure> figures;
   for (std::size_t first = 0; first < source.entries.size(); first += kTracesOfPicture) {
@@ -354,9 +313,11 @@ std::vector<Figure> sweep_traces_figures(const SweepSource& source) {
             : Figure{fmt::format("sweep-traces-{}", figures.size() + 1), "The recordings, continued"};
     chart::Chart chart{"Recordings of the sweep", {}, {}};
     for (std::size_t i = 0; i < entries.size(); ++i) {
-      for (Panel& panel : trace_panels(entries[i], source.sweep.recordings[first + i])) {
-        chart.panels.push_back(std::move(panel));
-      }
+      static const Background kNone;
+      const Recording& recording = entries[i].recording;
+      const std::string name = fmt::format("{}, {}", entries[i].id, speed_text(recording.conditions()));
+      const Source one = source_of(recording, source.sweep.recordings[first + i], kNone);
+      for (Panel& panel : small_trace(one, name)) chart.panels.push_back(std::move(panel));
     }
     figure.label = fmt::format("force over time of {} recordings", entries.size());
     figure.chart = std::move(chart);
