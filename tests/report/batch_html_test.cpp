@@ -62,14 +62,15 @@ TEST_CASE("a batch's page keeps text from outside text") {
 
 TEST_CASE("a file that is not a fit document is refused, and a missing quantity is a dash") {
   for (const char* line :
-       {"", "{", "[]", "null", "{\"schema\":1}", "{\"schema\":\"slipfit.predict/1\",\"id\":\"a\"}"}) {
+       {"", "{", "[]", "null", "{\"schema\":1}", "{\"schema\":\"slipfit.predict/1\",\"id\":\"a\"}",
+        R"({"schema":"slipfit.fit/1","id":"a","status":"undetermined","frequency":{"ci95_Hz":[1]}})"}) {
     CAPTURE(line);
     const auto bad = slipfit::batch_page_row(line);
     REQUIRE_FALSE(bad);
     CHECK(bad.error().code == "bad_document");
   }
-  const char* bare = R"({"schema":"slipfit.fit/1","id":"a","status":"undetermined","parameters":null,"derived":3,)"
-                     R"("frequency":{"value_Hz":"x","ci95_Hz":[1]},"recording":[]})";
+  const char* bare = R"({"schema":"slipfit.fit/1","id":"a","status":"undetermined","parameters":null,"derived":{},)"
+                     R"("frequency":{"value_Hz":null,"ci95_Hz":null}})";
   const auto read = slipfit::batch_page_row(bare);
   REQUIRE(read);
   CHECK_THAT(to_html(slipfit::BatchPage{"batch", {read.value()}, {}}),
