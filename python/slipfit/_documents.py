@@ -214,7 +214,7 @@ class Surface(Document):
     @property
     def spacing(self) -> Estimate:
         """Mean distance of the ridges (m)."""
-        return Estimate._of("spacing_m", self.to_dict()["spacing_m"], unit="m")
+        return Estimate._of("spacing_m", self.to_dict()["spacing_m"])
 
     def report(self, path: Path) -> None:
         """Write the page of the surface (one HTML file)."""

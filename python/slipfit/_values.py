@@ -47,9 +47,9 @@ class Estimate:
     unit: str
 
     @classmethod
-    def _of(cls, name: str, content: Optional[Mapping[str, Any]], absent: str = "", suffix: str = "", unit: str = "") -> "Estimate":
+    def _of(cls, name: str, content: Optional[Mapping[str, Any]], absent: str = "", suffix: str = "") -> "Estimate":
         if content is None:
-            return cls(name, None, None, None, None, absent, unit or unit_of(name))
+            return cls(name, None, None, None, None, absent, unit_of(name))
         ends = content.get("ci95" + suffix)
         return cls(
             name,
@@ -58,7 +58,7 @@ class Estimate:
             None if ends is None else (ends[0], ends[1]),
             content.get("status"),
             in_words_of_python(content.get("note") or ""),
-            unit or unit_of(name),
+            unit_of(name),
         )
 
     @property

@@ -31,6 +31,7 @@ std::vector<Quantity> make_quantities() {
   add(kCoefficientSpreads);
   add(kCycleQuantities);
   add(kTransients);
+  add(kPattern);
   return all;
 }
 

@@ -4,12 +4,15 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "report/format.hpp"
 #include "slipfit/analysis.hpp"
 #include "slipfit/predict/prediction.hpp"
 #include "slipfit/report/quantities.hpp"
+#include "slipfit/surface/surface.hpp"
 
 namespace slipfit {
 
@@ -17,7 +20,8 @@ namespace slipfit {
 template <class Owner>
 struct QuantityOf : Quantity {
   Estimate (*of)(const Owner&);
-  std::optional<double> (*spread)(const Owner&);  ///< standard deviation over the cycles, where one is known
+  bool is_number = false;                                   ///< a value without error or interval
+  std::optional<double> (*spread)(const Owner&) = nullptr;  ///< standard deviation over the cycles
 };
 
 namespace quantities {
@@ -42,8 +46,10 @@ template <auto Member, auto Spread = nullptr>
 constexpr QuantityOf<OwnerOf<Member>> row(std::string_view section, std::string_view key, std::string_view words,
                                           std::string_view unit) {
   using Owner = OwnerOf<Member>;
+  constexpr bool kIsNumber =
+      std::is_same_v<std::remove_cvref_t<decltype(std::declval<Owner>().*Member)>, std::optional<double>>;
   QuantityOf<Owner> quantity{
-      {section, key, words, unit}, [](const Owner& owner) { return as_estimate(owner.*Member); }, nullptr};
+      {section, key, words, unit}, [](const Owner& owner) { return as_estimate(owner.*Member); }, kIsNumber};
   if constexpr (Spread != nullptr) quantity.spread = [](const Owner& owner) { return owner.*Spread; };
   return quantity;
 }
@@ -126,6 +132,18 @@ inline constexpr std::array kMotionQuantities{
                                                      "micro-vibration spacing (estimate)", "m"),
     row<&PredictedMotion::force_peak_N>("rows", "force_peak_N", "peak force", "N"),
     row<&PredictedMotion::force_trough_N>("rows", "force_trough_N", "trough force", "N")};
+
+/// The pattern on a worn surface, in its own document.
+inline constexpr std::array kPattern{
+    row<&Surface::spacing_m>("surface", "spacing_m", "spacing", "m"),
+    row<&Surface::fine_spacing_m>("surface", "fine_spacing_m", "fine spacing", "m"),
+    row<&Surface::spacing_sd_m>("surface", "spacing_sd_m", "scatter of the located ridges", "m"),
+    row<&Surface::begin_spacing_m>("surface", "spacing_begin_m", "spacing at the start", "m"),
+    row<&Surface::end_spacing_m>("surface", "spacing_end_m", "spacing at the end", "m"),
+    row<&Surface::asymmetry>("surface", "asymmetry", "rise over fall", ""),
+    row<&Surface::rsm_m>("surface", "rsm_m", "RSm", "m"),
+    row<&Surface::cutoff_m>("surface", "cutoff_m", "cut-off wavelength of the waves", "m"),
+    row<&Surface::smoothed_over_m>("surface", "smoothed_over_m", "ridges smoothed over", "m")};
 
 /// "period_low_s" of "period_s" and "_low": the key of a property of the quantity.
 std::string key_of(const Quantity& quantity, std::string_view property);

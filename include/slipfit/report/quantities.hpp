@@ -14,7 +14,7 @@ struct Quantity {
   std::string_view unit;     ///< SI; empty for a pure number. "N" is the unit of the force column
 };
 
-/// Returns every quantity that a document of one recording contains: parameters first.
+/// Returns every quantity that the document of a recording or of a worn surface contains: parameters first.
 std::span<const Quantity> recording_quantities();
 /// Returns the quantity with this key, which must be one of `recording_quantities`.
 const Quantity& quantity_with_key(std::string_view key);
