@@ -258,7 +258,8 @@ RowPlace Rows::place_of(std::size_t sample) const {
 }
 
 void Rows::cut(const SampleRange& kept) {
-  const auto [begin, end] = kept;
+  const std::size_t begin = kept.begin;
+  const std::size_t end = kept.end;
   if (begin == 0 && end == time_s.size()) return;
   const RowPlace first = place_of(begin);
   std::erase_if(places, [&](const RowPlace& place) { return place.sample <= begin || place.sample >= end; });

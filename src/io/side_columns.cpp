@@ -71,7 +71,10 @@ const std::array kSideRoles = std::to_array<SideRole>(
      // Further columns of step numbers repeat the first or count within it.
      {&Choice::step,
       [](const Column& column) { return column.name.role == Role::Step && column.is_whole ? column.name.rank : 0; },
-      [](const Layout&, std::size_t column, const ReadOptions&) { return std::optional(Channel{column}); }, true}});
+      [](const Layout&, std::size_t column, const ReadOptions&) {
+        return std::optional(Channel{column, 1.0, ForceQuantity::Force_N, {}});
+      },
+      true}});
 
 std::optional<Channel> choose(const SideRole& role, const Layout& layout, const ReadOptions& options,
                               const Choice& choice, const std::string& file) {
