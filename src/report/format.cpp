@@ -64,6 +64,30 @@ std::size_t shown_width(std::string_view text) {
       std::ranges::count_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
 }
 
+std::vector<std::string> wrapped(const std::string& first, const std::string& text) {
+  std::vector<std::string> lines{first};
+  std::size_t begin = 0;
+  while (begin < text.size()) {
+    const std::size_t end = std::min(text.find(' ', begin), text.size());
+    const std::string word = text.substr(begin, end - begin);
+    const bool is_empty = lines.back().find_last_not_of(' ') + 1 <= first.size() && lines.back().size() == first.size();
+    if (!is_empty && shown_width(lines.back()) + 1 + shown_width(word) > kLineWidth) {
+      lines.emplace_back(first.size(), ' ');
+      lines.back() += word;
+    } else {
+      lines.back() += (is_empty ? "" : " ") + word;
+    }
+    begin = end + 1;
+  }
+  return lines;
+}
+
+std::string wrapped_text(const std::string& first, const std::string& text) {
+  std::string all;
+  for (const std::string& line : wrapped(first, text)) all += line + "\n";
+  return all;
+}
+
 std::string rounded(double value, std::optional<double> uncertainty) {
   if (!std::isfinite(value)) return "-";
   if (value == 0.0 && !usable(uncertainty)) return "0";

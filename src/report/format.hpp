@@ -71,6 +71,13 @@ std::string cell(std::optional<double> value);
 /// Characters of a text, not bytes: the continuation bytes of UTF-8 take no room.
 std::size_t shown_width(std::string_view text);
 
+/// The characters of a line of text.
+inline constexpr std::size_t kLineWidth = 100;
+
+/// The text in lines of at most kLineWidth characters, the first after `first`, the others after as many blanks.
+std::vector<std::string> wrapped(const std::string& first, const std::string& text);
+std::string wrapped_text(const std::string& first, const std::string& text);
+
 enum class Align { Left, Right };
 
 /// Lines of cells in columns that are as wide as their widest cell, two blanks apart, indented by two. A column without

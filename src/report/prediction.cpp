@@ -66,7 +66,7 @@ class Footnotes {
   [[nodiscard]] std::string text() const {
     std::string text;
     for (std::size_t i = 0; i < notes_.size(); ++i) {
-      text += fmt::format("  {} {}\n", std::string(i + 1, '*'), printable(notes_[i]));
+      text += wrapped_text(fmt::format("  {} ", std::string(i + 1, '*')), printable(notes_[i]));
     }
     return text;
   }

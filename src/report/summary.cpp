@@ -20,7 +20,6 @@
 namespace slipfit {
 namespace {
 
-constexpr std::size_t kWidth = 100;       // characters of a line
 constexpr std::size_t kMostLines = 25;    // of a summary: one screen
 constexpr std::size_t kMostWarnings = 5;  // those with the largest effect
 constexpr std::size_t kMostFootnotes = 3;
@@ -28,25 +27,6 @@ constexpr std::size_t kBelowSentences = 2;   // a blank line and the pointer to 
 constexpr std::size_t kRoomForWarnings = 6;  // a blank line, a warning of two lines, and what is below it
 constexpr std::size_t kLongestName = 32;     // of a path in the headline; of a longer one the name of the file
 constexpr std::size_t kMostListed = 8;       // recordings of a sweep
-
-/// The text in lines of at most kWidth characters, the first after `first`, the others after as many blanks.
-std::vector<std::string> wrapped(const std::string& first, const std::string& text) {
-  std::vector<std::string> lines{first};
-  std::size_t begin = 0;
-  while (begin < text.size()) {
-    const std::size_t end = std::min(text.find(' ', begin), text.size());
-    const std::string word = text.substr(begin, end - begin);
-    const bool is_empty = lines.back().find_last_not_of(' ') + 1 <= first.size() && lines.back().size() == first.size();
-    if (!is_empty && shown_width(lines.back()) + 1 + shown_width(word) > kWidth) {
-      lines.emplace_back(first.size(), ' ');
-      lines.back() += word;
-    } else {
-      lines.back() += (is_empty ? "" : " ") + word;
-    }
-    begin = end + 1;
-  }
-  return lines;
-}
 
 /// A sentence as a line of text ends: with a full stop.
 std::string sentence(std::string text) {
@@ -56,7 +36,7 @@ std::string sentence(std::string text) {
 
 /// The text up to its first semicolon where it is longer than two lines: `--details` has the whole.
 std::string shortened(const std::string& text) {
-  return text.size() > 2 * (kWidth - 4) ? text.substr(0, text.find(';')) : text;
+  return text.size() > 2 * (kLineWidth - 4) ? text.substr(0, text.find(';')) : text;
 }
 
 std::string value_text(const EstimateRow& row) {

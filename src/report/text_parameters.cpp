@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -70,11 +71,7 @@ std::string off_by(const Estimate& predicted, const Estimate& measured) {
 
 std::string conditions_text(const std::vector<std::string>& conditional_on) {
   if (conditional_on.empty()) return {};
-  std::string text = "  assumed: ";
-  for (std::size_t i = 0; i < conditional_on.size(); ++i) {
-    text += (i == 0 ? "" : "; ") + printable(conditional_on[i]);
-  }
-  return text + "\n";
+  return wrapped_text("  assumed: ", printable(fmt::format("{}", fmt::join(conditional_on, "; "))));
 }
 
 std::vector<ShownParameter> shown_parameters(const FitResult& fit) {
