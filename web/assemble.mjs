@@ -19,7 +19,7 @@ const parts = {
   style: inside(read("../src/report/html/style.css", "page.css")),
   engine: inside(read(core, "base64.js", "words.js", "api.js", "worker.js")),
   wasm: zlib.gzipSync(fs.readFileSync(made("slipfit.wasm")), { level: 9 }).toString("base64"),
-  scripts: inside(read("words.js", "texts.js", "base64.js", "files.js", "engine.js", "options.js", "../src/report/html/trace.js", "trace.js", "folder.js", "file_list.js", "each.js", "prediction.js", "saving.js", "german_report.js", "german_warnings.js", "page.js")),
+  scripts: inside(read("words.js", "texts.js", "base64.js", "files.js", "engine.js", "options.js", "../src/report/html/trace.js", "trace.js", "folder.js", "file_list.js", "each.js", "prediction.js", "saving.js", "german_warnings.js", "page.js")),
 };
 const page = read("page.html").replace(/{{(\w+)}}/g, (_, name) => parts[name]);
 fs.writeFileSync(made("slipfit.html"), page);

@@ -222,7 +222,7 @@
       page.onload = done;
       page.srcdoc = fitted.outputs.report;
     });
-    if (document.documentElement.lang === "de") translateReport(page.contentDocument);
+    if (document.documentElement.lang === "de") translateWarnings(page.contentDocument);
     fitHeight();
     new ResizeObserver(fitHeight).observe(page.contentDocument.body);
     for (const kind of ["cycles", "curve"]) document.querySelector(`[data-save=${kind}]`).hidden = mode() !== "single";

@@ -79,7 +79,6 @@ function makeTrace(onWindow) {
       event.preventDefault();
     });
   });
-  const axisWords = (english) => (document.documentElement.lang === "de" ? germanOf(english) : null) ?? english;
 
   return {
     /** packed: of a report's page; sliding: [[begin, end], ..] in seconds. */
@@ -87,8 +86,8 @@ function makeTrace(onWindow) {
       view?.close();
       data = { ...unpackTrace(packed), sliding };
       range = null;
-      const chart = { box, label: axisWords(data.label), behind, lines: [{ colour: "--chart-grey", at: data.force }] };
-      view = makeTraceView(data, [chart], { onShow: () => view && placeHandles(), timeLabel: axisWords("time [s]") });
+      const chart = { box, label: data.label, behind, lines: [{ colour: "--chart-grey", at: data.force }] };
+      view = makeTraceView(data, [chart], { onShow: () => view && placeHandles(), timeLabel: "time [s]" });
       placeHandles();
       return data.slips.length / 2;
     },

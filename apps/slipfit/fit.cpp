@@ -136,7 +136,7 @@ void add_fit_command(CLI::App& program, const std::string& command_line) {
       "Recordings; several are fitted separately (--joint: together)");
   command->add_option("--tier", arguments->tier, "Model: auto, sawtooth, undamped, damped, weakening, velocity (joint)")
       ->capture_default_str();
-  command->add_option("--fix", arguments->fixed, "NAME=VALUE: fix a parameter at a value (SI); may be repeated")
+  command->add_option("--fix", arguments->fixed, "NAME=VALUE: fix k, w_n or zeta at a value (SI); may be repeated")
       ->allow_extra_args(false);
   add_output_option(*command, arguments->analysis.document, "--curve",
                     "Write time, force, fitted force and residual (CSV)");

@@ -27,7 +27,7 @@ constexpr const char* kSpacing = "periodic_displacement_m";
 
 std::optional<slipfit::PlanTarget> target_from(const PlanArguments& arguments) {
   if (!arguments.target && !arguments.speed) return std::nullopt;
-  slipfit::PlanTarget target{arguments.target.value_or(kSpacing), std::nullopt};
+  slipfit::PlanTarget target{key_of_parameter(arguments.target.value_or(kSpacing)), std::nullopt};
   if (arguments.speed) {
     if (target.name != kSpacing) {
       throw Failure(ExitCode::WrongUsage, fmt::format("--at can only be combined with --for {}", kSpacing));
@@ -64,9 +64,10 @@ void add_plan_command(CLI::App& program) {
       program.add_subcommand("plan", "Recommends the speed, sampling rate and duration of the next measurement");
   const auto arguments = std::make_shared<PlanArguments>();
   command->add_option("FIT.json", arguments->file, "Document written by slipfit fit --json")->required();
-  command->add_option("--for", arguments->target,
-                      "Parameter whose interval should shrink, by its key in the document, or periodic_displacement_m; "
-                      "default: the least well known");
+  command->add_option(
+      "--for", arguments->target,
+      "Parameter whose interval should shrink, by its symbol (zeta) or key, or periodic_displacement_m; "
+      "default: the least well known");
   command->add_option("--at", arguments->speed, "Speed at which the predicted spacing is needed");
   add_document_options(*command, arguments->document, "text");
   command->callback([arguments] { run(*arguments); });

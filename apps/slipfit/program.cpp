@@ -9,8 +9,10 @@
 #include <filesystem>
 #include <iostream>
 #include <new>
+#include <numeric>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "commands.hpp"
 #include "slipfit/core/units.hpp"
@@ -24,11 +26,45 @@ std::string command_line(const CLI::App& program) {
   return commands.empty() ? "slipfit" : "slipfit " + commands.front()->get_name();
 }
 
+/// Changes of single letters that turn one text into the other.
+std::size_t distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::size_t diagonal = row[0]++;
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      const std::size_t changed = diagonal + (a[i] == b[j] ? 0U : 1U);
+      diagonal = row[j + 1];
+      row[j + 1] = std::min({changed, diagonal + 1, row[j] + 1});
+    }
+  }
+  return row.back();
+}
+
+/// " (did you mean 'fit'?)" for a text that differs by at most two letters from one of the names.
+std::string suggestion(const std::string& text, const std::vector<std::string>& names) {
+  const auto nearest = std::min_element(names.begin(), names.end(), [&text](const auto& a, const auto& b) {
+    return distance(text, a) < distance(text, b);
+  });
+  constexpr std::size_t kClose = 2;
+  return nearest == names.end() || distance(text, *nearest) > kClose ? "" : " (did you mean '" + *nearest + "'?)";
+}
+
+std::vector<std::string> option_names(const CLI::App& program) {
+  std::vector<std::string> names;
+  for (const CLI::App* const command : program.get_subcommands()) {
+    for (const CLI::Option* const option : command->get_options()) names.push_back(option->get_name());
+  }
+  return names;
+}
+
 /// CLI11's errors as one line; --help and --version arrive here too and are no errors.
 Outcome parse_outcome(const CLI::App& program, const CLI::ParseError& error) {
   if (error.get_exit_code() != static_cast<int>(CLI::ExitCodes::Success)) {
-    return {ExitCode::WrongUsage, std::string(error.what()) + " (see " + command_line(program) + " --help)",
-            "wrong_usage"};
+    const std::string message = error.what();
+    const std::string last = message.substr(message.rfind(' ') + 1);
+    const std::string meant = last.starts_with("--") ? suggestion(last, option_names(program)) : std::string();
+    return {ExitCode::WrongUsage, message + meant + " (see " + command_line(program) + " --help)", "wrong_usage"};
   }
   (void)program.exit(error, std::cout, std::cerr);
   if (std::cout.flush()) return {};
@@ -38,13 +74,16 @@ Outcome parse_outcome(const CLI::App& program, const CLI::ParseError& error) {
 
 void check_command(const CLI::App& program, const std::string& first_argument) {
   std::string known;
+  std::vector<std::string> names;
   for (const CLI::App* const command : program.get_subcommands({})) {
     if (command->get_name() == first_argument) return;
-    known += (known.empty() ? "" : ", ") + command->get_name();
+    names.push_back(command->get_name());
+    known += (known.empty() ? "" : ", ") + names.back();
   }
   if (first_argument.empty()) throw Failure(ExitCode::WrongUsage, "a command is missing: one of " + known);
   if (first_argument.front() == '-') return;
-  throw Failure(ExitCode::WrongUsage, "unknown command '" + first_argument + "', expected one of " + known);
+  throw Failure(ExitCode::WrongUsage, "unknown command '" + first_argument + "'" + suggestion(first_argument, names) +
+                                          ", expected a file or one of " + known);
 }
 
 bool is_unit(const std::string& text) {
@@ -142,10 +181,14 @@ void arrange_help(CLI::App& program, const Command& command) {
   added->footer("Examples:\n" + std::string(command.examples) + "\n" + program.get_footer());
 }
 
+bool is_command(std::string_view word) {
+  return std::any_of(kCommands.begin(), kCommands.end(), [&](const Command& command) { return command.name == word; });
+}
+
 /// Only the command that is called, where one is: all options of all of them would be a fifth of the start-up.
 void add_commands(CLI::App& program, const std::string& first_argument, const std::string& typed_line) {
   const auto is_called = [&](const Command& command) { return command.name == first_argument; };
-  const bool is_one = std::any_of(kCommands.begin(), kCommands.end(), is_called);
+  const bool is_one = is_command(first_argument);
   if (first_argument == "--version") return;
   for (const Command& command : kCommands) {
     if (is_one && !is_called(command)) continue;
@@ -160,6 +203,9 @@ void run(CLI::App& program, std::vector<std::string> words, const std::string& t
   program.footer(
       "Exit codes: 0 success, 1 some recordings of a batch failed, 2 wrong usage, 3 recording unreadable or without "
       "usable data.");
+  std::error_code ignored;
+  const bool is_file = words.size() > 1 && !words[1].starts_with('-') && std::filesystem::exists(words[1], ignored);
+  if (is_file && !is_command(words[1])) words.insert(words.begin() + 1, "fit");  // slipfit REC
   add_commands(program, words.size() > 1 ? words[1] : "", typed_line);
   check_command(program, words.size() > 1 ? words[1] : "");
   words = with_quantities_joined({words.begin() + std::min<std::ptrdiff_t>(1, std::ssize(words)), words.end()});

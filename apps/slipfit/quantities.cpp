@@ -1,6 +1,9 @@
 #include "quantities.hpp"
 
+#include <algorithm>
 #include <utility>
+
+#include "slipfit/fit/parameter.hpp"
 
 using slipfit::Dimension;
 
@@ -32,9 +35,23 @@ double plain_number(const std::string& option, const std::string& text, const st
   return within(value.value(), limits, option, text);
 }
 
+std::string key_of_parameter(const std::string& text) {
+  const slipfit::ParameterInfo* found = nullptr;  // of several the one with the fewest words: "F_s - F_k" ends with F_k
+  for (const slipfit::ParameterInfo& parameter : slipfit::parameter_table()) {
+    const bool has_symbol = parameter.words.ends_with(" " + text);
+    if (has_symbol && (found == nullptr || parameter.words.size() < found->words.size())) found = &parameter;
+  }
+  return found == nullptr ? text : std::string(found->key);
+}
+
 slipfit::FitOptions fit_options_from(const std::string& tier, const std::vector<std::string>& fixed,
                                      slipfit::FitKind kind) {
-  auto options = slipfit::parse_fit_options(tier, fixed, kind);
+  std::vector<std::string> with_keys;
+  for (const std::string& text : fixed) {
+    const std::size_t end = std::min(text.find('='), text.size());
+    with_keys.push_back(key_of_parameter(text.substr(0, end)) + text.substr(end));
+  }
+  auto options = slipfit::parse_fit_options(tier, with_keys, kind);
   if (!options) throw Failure(ExitCode::WrongUsage, options.error().message);
   return std::move(options).value();
 }

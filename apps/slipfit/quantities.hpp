@@ -53,6 +53,9 @@ const Value& required(const std::optional<Value>& value, const std::string& opti
   return *value;
 }
 
+/// Returns the key of the parameter with this symbol ("k", "zeta", "w_n"), otherwise the text itself.
+std::string key_of_parameter(const std::string& text);
+
 /// Returns the options `--tier` and `--fix` as typed.
 slipfit::FitOptions fit_options_from(const std::string& tier, const std::vector<std::string>& fixed,
                                      slipfit::FitKind kind);

@@ -44,6 +44,7 @@ std::vector<slipfit::SweepEntry> read_recordings(const std::vector<ManifestEntry
 slipfit::SweepAnalysis analyze_with_progress(const std::vector<slipfit::SweepEntry>& entries,
                                              slipfit::FitOptions options, const DocumentOptions& document) {
   ProgressLine line;
+  options.curve = document.has("--report");
   if (!document.quiet) options.tell_step = [&line](const std::string& step) { line.show(step); };
   return slipfit::analyze_sweep(entries, options);
 }

@@ -50,6 +50,13 @@ def write_page(path: Path, page: str) -> None:
         file.write(page)
 
 
+def _with_ends(name: str, content: Dict[str, Any]) -> Dict[str, Any]:
+    """Value and ends of the interval of an estimate, as cells of a table."""
+    estimate = content.get(name) or {}
+    low, high = estimate.get("ci95") or (None, None)
+    return {name: estimate.get("value"), name + "_low": low, name + "_high": high}
+
+
 class Document:
     """A JSON document of the library, and the same for people."""
 
@@ -142,14 +149,9 @@ class Comparison(Document):
 
         rows = {}
         for name, content in self.to_dict()["quantities"].items():
-            difference, ratio = content.get("difference") or {}, content.get("ratio") or {}
             rows[name] = {
-                "difference": difference.get("value"),
-                "difference_low": (difference.get("ci95") or [None, None])[0],
-                "difference_high": (difference.get("ci95") or [None, None])[1],
-                "ratio": ratio.get("value"),
-                "ratio_low": (ratio.get("ci95") or [None, None])[0],
-                "ratio_high": (ratio.get("ci95") or [None, None])[1],
+                **_with_ends("difference", content),
+                **_with_ends("ratio", content),
                 "p_value": content.get("p_value"),
                 "p_adjusted": content.get("p_adjusted"),
             }

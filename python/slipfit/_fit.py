@@ -271,13 +271,19 @@ class Fit:
         """
         return row_of(_slipfit.summary_row(self.to_json(), self.id), text)
 
+    def _quantities(self) -> List[Estimate]:
+        """What tables and texts show, in their order."""
+        return [*self.parameters.values(), self.frequency, self.pattern_spacing, self.periodic_displacement, self.critical_speed]
+
+    def _known(self) -> List[Estimate]:
+        return [one for one in self._quantities() if one.value is not None or one.ci95 is not None]
+
     # Tables and arrays
 
     def to_frame(self) -> "pd.DataFrame":
         """One row a quantity, by its key: value, se, low, high (95 %), unit, status, note."""
         import pandas
 
-        shown = [*self.parameters.values(), self.frequency, self.pattern_spacing, self.periodic_displacement, self.critical_speed]
         rows = {
             one.name: {
                 "value": float(one),
@@ -288,7 +294,7 @@ class Fit:
                 "status": one.status or "",
                 "note": one.note,
             }
-            for one in shown
+            for one in self._quantities()
         }
         return pandas.DataFrame.from_dict(rows, orient="index")
 
@@ -422,8 +428,7 @@ def _check_recording(name: str, stated: Mapping[str, Any], recording: Recording)
 
 def _numbers_as_text(fit: Fit) -> str:
     lines = [f"{fit.id}: {fit.status.replace('_', ' ')}" + (f" ({fit.reason})" if fit.reason else "")]
-    known = [*fit.parameters.values(), fit.frequency, fit.pattern_spacing, fit.critical_speed]
-    lines += [f"  {one.name}: {one}" for one in known if one.value is not None or one.ci95 is not None]
+    lines += [f"  {one.name}: {one}" for one in fit._known()]
     return "\n".join(lines + [f"  warning: {notice}" for notice in fit.warnings])
 
 

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any, Iterable, List, Sequence, Tuple
 
 import numpy as np
 
-from . import _slipfit
 
 if TYPE_CHECKING:
     from ._batch import BatchResult
@@ -83,10 +82,10 @@ def _interval(one: "Estimate") -> str:
     return "–" if one.ci95 is None else f"[{_shown(one.ci95[0], _digits(one))}, {_shown(one.ci95[1], _digits(one))}]"
 
 
-def _row(words: str, one: "Estimate") -> str:
+def _row(one: "Estimate") -> str:
     note = f' title="{escape(one.note)}"' if one.note else ""
     cells = (_number(one), one.unit, _interval(one), one.status or "")
-    return f"<tr{note}><th style='text-align:left'>{escape(words)}</th>" + "".join(f"<td>{escape(c)}</td>" for c in cells) + "</tr>"
+    return f"<tr{note}><th style='text-align:left'>{escape(one.words)}</th>" + "".join(f"<td>{escape(c)}</td>" for c in cells) + "</tr>"
 
 
 _HEAD = "<tr><th></th><th>value</th><th>unit</th><th>95 % interval</th><th>status</th></tr>"
@@ -98,9 +97,7 @@ def of_estimate(one: "Estimate") -> str:
 
 def of_parameters(estimates: Iterable["Estimate"]) -> str:
     """A table, a row each."""
-    words = _slipfit.parameter_words()
-    rows = "".join(_row(words.get(one.name, (one.name, ""))[0], one) for one in estimates)
-    return f'<table style="{_STYLE}">{_HEAD}{rows}</table>'
+    return f'<table style="{_STYLE}">{_HEAD}{"".join(_row(one) for one in estimates)}</table>'
 
 
 def of_document(document: "Document") -> str:
@@ -130,11 +127,7 @@ def of_batch(result: "BatchResult") -> str:
 
 def of_fit(fit: "Fit") -> str:
     """Kind of motion, table with intervals and statuses, warnings, chart."""
-    words = _slipfit.parameter_words()
-    rows = [_row("frequency of the slips", fit.frequency)] if fit.frequency.value is not None else []
-    rows += [_row(words.get(name, (name, ""))[0], one) for name, one in fit.parameters.items()]
-    rows += [_row("pattern spacing V / f", fit.pattern_spacing)] if fit.pattern_spacing.value is not None else []
-    rows += [_row("critical speed", fit.critical_speed)] if fit.critical_speed.ci95 is not None else []
+    rows = [_row(one) for one in fit._known()]
     notes = "".join(f"<li>{escape(one.message)} <code>{escape(one.code)}</code></li>" for one in fit.warnings)
     picture = "" if fit._recording is None else chart(fit.recording, fit)
     return (

@@ -5,7 +5,7 @@ from __future__ import annotations
 import functools
 import json
 import os
-from typing import TYPE_CHECKING, Any, Callable, Dict, Iterable, Mapping, Optional, Sequence, Tuple, Union, overload
+from typing import TYPE_CHECKING, Any, Callable, Dict, Iterable, List, Mapping, Optional, Sequence, Tuple, Union, overload
 
 from . import _slipfit
 from ._cells import Quantity, fixed_of
@@ -110,9 +110,8 @@ class Sweep(Fit):
     def curve(self) -> Curve:
         raise AttributeError("a curve is of one recording: sweep.recordings[NAME].curve")
 
-    def to_frame(self) -> "pd.DataFrame":
-        """One row a parameter, by its key: value, se, low, high (95 %), unit, status, note."""
-        return super().to_frame().drop(index=["frequency_Hz", "pattern_spacing_m", "periodic_displacement_m"])
+    def _quantities(self) -> List[Estimate]:
+        return [*self.parameters.values(), self.critical_speed]
 
     def recordings_frame(self) -> "pd.DataFrame":
         """One row a recording: speed, status, role, frequency, spacing as measured, predicted, and predicted by the others."""
@@ -120,16 +119,14 @@ class Sweep(Fit):
 
         rows = {}
         for one in self.to_dict()["recordings"]:
-            joint = one.get("joint") or {}
+            values = {**one["derived"], **(one.get("joint") or {})}
             rows[one["id"]] = {
                 "speed_m_per_s": one["recording"]["speed_m_per_s"],
                 "normal_force_N": one["recording"]["normal_force_N"],
                 "status": one["status"],
                 "role": one.get("role"),
                 "frequency_Hz": one["frequency"]["value_Hz"],
-                "pattern_spacing_m": (one["derived"]["pattern_spacing_m"] or {}).get("value"),
-                "spacing_m": (joint.get("spacing_m") or {}).get("value"),
-                "spacing_left_out_m": (joint.get("spacing_left_out_m") or {}).get("value"),
+                **{key: (values.get(key) or {}).get("value") for key in ("pattern_spacing_m", "spacing_m", "spacing_left_out_m")},
             }
         return pandas.DataFrame.from_dict(rows, orient="index")
 

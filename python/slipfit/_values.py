@@ -2,29 +2,22 @@
 
 from __future__ import annotations
 
+import functools
 from dataclasses import dataclass
 from typing import Any, Dict, List, Mapping, NamedTuple, Optional, Tuple
 
+from . import _slipfit
 from ._errors import in_words_of_python
 
-_UNITS = (
-    ("_N_s_per_m", "N s/m"),
-    ("_N_per_m", "N/m"),
-    ("_rad_per_s", "rad/s"),
-    ("_m_per_s", "m/s"),
-    ("_s_per_m", "s/m"),
-    ("_per_m", "1/m"),
-    ("_kg", "kg"),
-    ("_Hz", "Hz"),
-    ("_N", "N"),
-    ("_m", "m"),
-    ("_s", "s"),
-)
+@functools.lru_cache(maxsize=None)
+def words_and_units() -> Dict[str, Tuple[str, str]]:
+    """Words and unit of each quantity by its key in the document."""
+    return _slipfit.quantity_words()
 
 
 def unit_of(name: str) -> str:
-    """The unit in a key of a document: ``"N/m"`` of ``stiffness_N_per_m``."""
-    return next((unit for ending, unit in _UNITS if name.endswith(ending)), "")
+    """The unit of a quantity of the document: ``"N/m"`` of ``stiffness_N_per_m``."""
+    return words_and_units().get(name, ("", ""))[1]
 
 
 class Notice(NamedTuple):
@@ -67,6 +60,11 @@ class Estimate:
             in_words_of_python(content.get("note") or ""),
             unit_of(name),
         )
+
+    @property
+    def words(self) -> str:
+        """What it is called in reports."""
+        return words_and_units().get(self.name, (self.name, ""))[0]
 
     def __float__(self) -> float:
         return float("nan") if self.value is None else self.value

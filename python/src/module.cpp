@@ -1,7 +1,7 @@
 #include "convert.hpp"
 #include "slipfit/core/remedy.hpp"
 #include "slipfit/core/units.hpp"
-#include "slipfit/fit/parameter.hpp"
+#include "slipfit/report/quantities.hpp"
 
 namespace slipfit::python {
 
@@ -30,11 +30,10 @@ Dimension dimension_called(const std::string& name) {
 }
 
 /// key: (words, unit)
-py::dict parameter_words() {
+py::dict quantity_words() {
   py::dict words;
-  for (const ParameterInfo& parameter : parameter_table()) {
-    words[py::str(std::string(parameter.key))] =
-        py::make_tuple(std::string(parameter.words), std::string(parameter.unit));
+  for (const Quantity& quantity : recording_quantities()) {
+    words[py::str(std::string(quantity.key))] = py::make_tuple(full_words(quantity), std::string(quantity.unit));
   }
   return words;
 }
@@ -57,7 +56,7 @@ PYBIND11_MODULE(_slipfit, module) {
         return slipfit::remedy_of({code, message});
       },
       "What to do about an error.");
-  module.def("parameter_words", parameter_words, "What each parameter is called, and its unit.");
+  module.def("quantity_words", quantity_words, "The words for each quantity of a document, and its unit.");
   add_recordings(module);
   add_results(module);
   add_documents(module);

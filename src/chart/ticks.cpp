@@ -44,7 +44,8 @@ std::vector<Tick> linear_ticks(const Axis& axis, int most_steps) {
     if (value > axis.high + kSlack * step) break;
     ticks.push_back({value, text_of(value, step)});
   }
-  return ticks;
+  constexpr int kClose = 8;  // a single value does not show the scale
+  return ticks.size() < 2 && most_steps < kClose ? linear_ticks(axis, most_steps + 1) : ticks;
 }
 
 /// Decades carry values; on a short axis 2 and 5 of each decade too, on a very short one every part.

@@ -5,7 +5,6 @@
 #include "report/document/check_document.hpp"
 #include "report/quantities.hpp"
 #include "slipfit/compare.hpp"
-#include "slipfit/fit/parameter.hpp"
 
 namespace slipfit {
 namespace {
@@ -14,43 +13,23 @@ using documents::JsonNode;
 
 std::vector<ComparedQuantity> make_quantities() {
   std::vector<ComparedQuantity> quantities;
-  for (const ParameterInfo& parameter : parameter_table()) {
-    if (parameter.id == ParameterId::SensorAverage) continue;  // of the instrument
+  const auto add = [&quantities](const Quantity& quantity) {
     quantities.push_back(
-        {"parameters", std::string(parameter.key), std::string(parameter.words), std::string(parameter.unit)});
+        {std::string(quantity.section), std::string(quantity.key), full_words(quantity), std::string(quantity.unit)});
+  };
+  for (const Quantity& quantity : recording_quantities()) {
+    if (quantity.section == "parameters" && quantity.key != info(ParameterId::SensorAverage).key) add(quantity);
   }
-  quantities.push_back({"frequency", "frequency_Hz", "frequency of the slips", "Hz"});
-  const auto& spacing = kMeasured.front();  // the other is its inverse
-  quantities.push_back({"derived", std::string(spacing.key), std::string(spacing.words), std::string(spacing.unit)});
-  for (const auto& row : kCoefficients) {
-    quantities.push_back({"coefficients", std::string(row.key),
-                          "coefficient of friction (" + std::string(row.words) + ")", std::string(row.unit)});
-  }
+  add(kFrequency);
+  add(kMeasured.front());  // the others are its inverse and its spread
+  for (const Quantity& quantity : kCoefficients) add(quantity);
   return quantities;
-}
-
-std::optional<double> number_in(const JsonNode& node, const std::string& key) {
-  const std::optional<JsonNode> found = node.known(key);
-  return found ? found->number() : std::nullopt;
-}
-
-std::string text_in(const JsonNode& node, const std::string& key) {
-  const std::optional<JsonNode> found = node.known(key);
-  return found ? found->text() : std::string();
-}
-
-Estimate estimate_in(const JsonNode& node, const std::string& suffix) {
-  Estimate estimate{number_in(node, "value" + suffix), number_in(node, "se" + suffix), {}, text_in(node, "note")};
-  if (const auto bounds = node.known("ci95" + suffix)) {
-    estimate.ci95 = Interval{*bounds->element(0).number(), *bounds->element(1).number()};
-  }
-  return estimate;
 }
 
 /// Returns a value for the comparison; values that are only bounded or were not measured have none.
 ComparedValue value_of(const std::optional<JsonNode>& node, const std::string& suffix) {
   if (!node || !node->is_object()) return {unknown("its result does not contain it"), {}, true};
-  ComparedValue value{estimate_in(*node, suffix), text_in(*node, "status"), false};
+  ComparedValue value{node->estimate(suffix), node->text_at("status"), false};
   Estimate& estimate = value.estimate;
   if (value.status == "bounded") {
     estimate = {{}, {}, estimate.ci95, "only its interval is known (status bounded)"};
@@ -69,16 +48,16 @@ ComparedValue value_in(const JsonNode& document, const ComparedQuantity& quantit
 
 ComparedFit fit_from(const JsonNode& document) {
   ComparedFit fit;
-  fit.id = text_in(document, "id");
-  fit.motion = text_in(document, "status");
+  fit.id = document.text_at("id");
+  fit.motion = document.text_at("status");
   if (const auto recording = document.known("recording")) {
-    fit.file = text_in(*recording, "file");
-    fit.source = text_in(*recording, "input_digest");
+    fit.file = recording->text_at("file");
+    fit.source = recording->text_at("input_digest");
     const auto slides = recording->known("sliding_s");
     if (!fit.source.empty()) fit.source += slides ? slides->json_text() : "null";
-    fit.group = text_in(*recording, "group");
-    fit.speed_m_per_s = number_in(*recording, "speed_m_per_s");
-    fit.normal_force_N = number_in(*recording, "normal_force_N");
+    fit.group = recording->text_at("group");
+    fit.speed_m_per_s = recording->number_at("speed_m_per_s");
+    fit.normal_force_N = recording->number_at("normal_force_N");
   }
   for (const ComparedQuantity& quantity : compared_quantities()) fit.values.push_back(value_in(document, quantity));
   return fit;

@@ -17,12 +17,11 @@ namespace {
 
 /// The data from which every recording of a part is built.
 struct Interpreted {
-  std::vector<double> time_s;
-  std::vector<double> force;
-  std::vector<double> displacement_m;  ///< empty without such a column
-  std::vector<double> normal_force_N;  ///< the same
+  Rows rows;
   Conditions conditions;
   Provenance provenance;
+
+  [[nodiscard]] Motion motion() const { return {rows.force, rows.displacement_m}; }
 };
 
 /// Normal force and zero: from what the column says to a force.
@@ -30,14 +29,14 @@ void interpret_force(Interpreted& part, ForceQuantity column) {
   Conditions& conditions = part.conditions;
   conditions.quantity = column;
   if (column == ForceQuantity::FrictionCoefficient && conditions.normal_force_N) {
-    for (double& value : part.force) value *= *conditions.normal_force_N;
+    for (double& value : part.rows.force) value *= *conditions.normal_force_N;
     conditions.quantity = ForceQuantity::Force_N;
     part.provenance.assumed.push_back(
         fmt::format("Force is the friction coefficient times the normal force of {} N.", *conditions.normal_force_N));
   }
   if (!conditions.zero_force_N) return;
   if (conditions.quantity == ForceQuantity::Force_N) {
-    for (double& value : part.force) value -= *conditions.zero_force_N;
+    for (double& value : part.rows.force) value -= *conditions.zero_force_N;
     return;
   }
   part.provenance.warnings.push_back(
@@ -47,10 +46,11 @@ void interpret_force(Interpreted& part, ForceQuantity column) {
 
 /// Replaces time stamps that are a coarsely rounded even clock by that clock.
 void restore_clock(Interpreted& part) {
-  const std::optional<RoundedClock> clock = rounded_clock(part.time_s);
+  std::vector<double>& time_s = part.rows.time_s;
+  const std::optional<RoundedClock> clock = rounded_clock(time_s);
   if (!clock) return;
-  for (std::size_t i = 0; i < part.time_s.size(); ++i) {
-    part.time_s[i] = clock->begin_s + clock->step_s * static_cast<double>(i);
+  for (std::size_t i = 0; i < time_s.size(); ++i) {
+    time_s[i] = clock->begin_s + clock->step_s * static_cast<double>(i);
   }
   part.provenance.assumed.push_back(
       fmt::format("The times are rounded to {:.4g} s from an even clock: one sample every {:.6g} s.", clock->rounding_s,
@@ -60,32 +60,30 @@ void restore_clock(Interpreted& part) {
 Interpreted interpret(Part part, const LoadedFile& file, const Conditions& conditions) {
   check_part(part, file);
   const StatedConditions stated = state_conditions(part.rows, file.choice, file.layout, conditions, file.name);
-  Interpreted result{{}, {}, {}, {}, stated.conditions, describe_part(part, file)};
+  Interpreted result{{}, stated.conditions, describe_part(part, file)};
   const auto append = [](auto& all, const auto& more) { all.insert(all.end(), more.begin(), more.end()); };
   append(result.provenance.assumed, stated.assumed);
   append(result.provenance.warnings, stated.warnings);
   result.provenance.moved_m_per_s = stated.moved_m_per_s;
-  result.time_s = std::move(part.rows.time_s);
-  result.force = std::move(part.rows.force);
-  result.displacement_m = std::move(part.rows.displacement_m);
-  result.normal_force_N = std::move(part.rows.normal_force_N);
+  result.rows = std::move(part.rows);
   interpret_force(result, file.choice.force.quantity);
   restore_clock(result);
   return result;
 }
 
 void turn_sign(Interpreted& part, const char* reason) {
-  for (double& force : part.force) force = -force;
+  for (double& force : part.rows.force) force = -force;
   part.provenance.assumed.emplace_back(reason);
 }
 
 /// A force that is negative throughout has the other sign, unless an unknown zero has made it negative: friction rises
 /// slowly and falls suddenly. One that is negative for the most part has it where that shows.
 void settle_sign(Interpreted& part) {
-  if (!is_mostly_negative(part.force)) return;
-  const SuddenChanges changes = sudden_changes(part.force);
-  if (!is_negative_throughout(part.force)) {
-    const bool is_turned = changes == SuddenChanges::Rises && !is_reciprocating({part.force, part.displacement_m});
+  const std::vector<double>& force = part.rows.force;
+  if (!is_mostly_negative(force)) return;
+  const SuddenChanges changes = sudden_changes(force);
+  if (!is_negative_throughout(force)) {
+    const bool is_turned = changes == SuddenChanges::Rises && !is_reciprocating(part.motion());
     if (is_turned) turn_sign(part, "The force is mostly negative and rises suddenly: its sign was reversed.");
   } else if (part.conditions.zero_force_N || changes != SuddenChanges::Falls) {
     turn_sign(part, "The force is negative throughout: its sign was reversed.");
@@ -105,14 +103,14 @@ ThrownError reciprocating(const std::vector<double>& time_s, const std::string& 
 }
 
 Recording create(Interpreted part, const std::string& file) {
-  auto recording = Recording::create(std::move(part.time_s), std::move(part.force), part.conditions,
-                                     std::move(part.provenance), std::move(part.normal_force_N));
+  auto recording = Recording::create(std::move(part.rows.time_s), std::move(part.rows.force), part.conditions,
+                                     std::move(part.provenance), std::move(part.rows.normal_force_N));
   if (!recording) throw ThrownError({recording.error().code, file + ": " + recording.error().message});
   return std::move(recording).value();
 }
 
 /// Returns the samples at nearly constant speed if a displacement is known: a crank turns slowly at its ends.
-SampleRange at_full_speed(const Interpreted& part, const Stroke& stroke) {
+SampleRange at_full_speed(const Rows& part, const Stroke& stroke) {
   constexpr std::size_t kBlocks = 32;
   constexpr double kFull = 0.9;
   if (part.displacement_m.empty() || stroke.size() < 2 * kBlocks) return {stroke.begin, stroke.end};
@@ -129,27 +127,22 @@ SampleRange at_full_speed(const Interpreted& part, const Stroke& stroke) {
 }
 
 /// Over what is kept of a stroke. Empty where no displacement is known.
-std::optional<double> moved_m_per_s(const Interpreted& part, const SampleRange& kept) {
+std::optional<double> moved_m_per_s(const Rows& part, const SampleRange& kept) {
   if (part.displacement_m.empty() || kept.size() < 2) return std::nullopt;
   const double moved_m = std::abs(part.displacement_m[kept.end - 1] - part.displacement_m[kept.begin]);
   return moved_m / (part.time_s[kept.end - 1] - part.time_s[kept.begin]);
 }
 
 NamedRecording record(const Interpreted& part, const Stroke& stroke, std::size_t number, const std::string& file) {
-  const SampleRange kept = at_full_speed(part, stroke);
-  const auto cut = [&](const std::vector<double>& column) {
-    const auto part_of_it = kept.of(column);
-    return std::vector<double>(part_of_it.begin(), part_of_it.end());
-  };
+  const SampleRange kept = at_full_speed(part.rows, stroke);
   const char sign = stroke.is_positive ? '+' : '-';
-  Interpreted own{cut(part.time_s), cut(part.force), {}, {}, part.conditions, part.provenance};
-  if (!part.normal_force_N.empty()) own.normal_force_N = cut(part.normal_force_N);
-  for (double& force : own.force) force = stroke.is_positive ? force : -force;
+  Interpreted own{part.rows.part(kept), part.conditions, part.provenance};
+  for (double& force : own.rows.force) force = stroke.is_positive ? force : -force;
   own.provenance.assumed.push_back(
       fmt::format("Stroke {} is {:.6g} to {:.6g} s, without the ends at which the force reverses; its force has the "
                   "sign {} in the file.",
-                  number, own.time_s.front(), own.time_s.back(), sign));
-  if (const auto moved = moved_m_per_s(part, kept)) {
+                  number, own.rows.time_s.front(), own.rows.time_s.back(), sign));
+  if (const auto moved = moved_m_per_s(part.rows, kept)) {
     auto warning = compare_speed(part.conditions.speed_m_per_s, *moved, "in this stroke the displacement");
     if (warning) own.provenance.warnings.push_back(*std::move(warning));
   }
@@ -161,13 +154,13 @@ NamedRecording record(const Interpreted& part, const Stroke& stroke, std::size_t
 Recording build_recording(Part part, const LoadedFile& file, const Conditions& conditions) {
   Interpreted one = interpret(std::move(part), file, conditions);
   settle_sign(one);
-  if (is_reciprocating({one.force, one.displacement_m})) throw reciprocating(one.time_s, file.name);
+  if (is_reciprocating(one.motion())) throw reciprocating(one.rows.time_s, file.name);
   return create(std::move(one), file.name);
 }
 
 std::vector<NamedRecording> build_strokes(Part part, const LoadedFile& file, const Conditions& conditions) {
   const Interpreted all = interpret(std::move(part), file, conditions);
-  const std::vector<Stroke> strokes = take_strokes({all.force, all.displacement_m});
+  const std::vector<Stroke> strokes = take_strokes(all.motion());
   std::vector<std::size_t> wanted;
   for (std::size_t i = 0; i < strokes.size(); ++i) {
     const bool is_wanted = file.options.pieces == Pieces::Strokes ||

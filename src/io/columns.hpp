@@ -35,7 +35,7 @@ struct Choice {
   std::optional<Channel> displacement;
   std::optional<Channel> normal_force;
   std::optional<Channel> speed;
-  std::optional<std::size_t> step;  ///< column of numbers of steps
+  std::optional<Channel> step;  ///< numbers of steps
   std::optional<WhereFilter> where;
   std::vector<std::string> assumed;
 };

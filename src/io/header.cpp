@@ -106,8 +106,11 @@ std::ptrdiff_t count_known_names(const std::vector<std::string_view>& cells) {
 /// Units alone; or a row of names above, and most of them units, or the names known above and unknown here ("s,raw"
 /// below "time,force").
 bool is_units_row(const std::vector<std::string_view>& cells, const std::vector<std::string_view>& above) {
+  const bool has_reading = std::ranges::any_of(cells, [](std::string_view cell) {
+    return read_cell(cell, false).kind == CellKind::Number && trim(cell) != "1";
+  });
   const CountedUnits count = count_units(cells);
-  if (count.known == 0) return false;
+  if (has_reading || count.known == 0) return false;
   if (count.unknown == 0) return true;
   if (!is_names_row(above) || count_units(above).known > count_units(above).unknown) return false;
   return count.known > count.unknown || count_known_names(above) > count_known_names(cells);

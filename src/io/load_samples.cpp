@@ -1,7 +1,5 @@
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "core/thrown_error.hpp"
@@ -58,28 +56,6 @@ void scale_by(std::vector<double>& values, double scale) {
   for (double& value : values) value *= scale;
 }
 
-/// Leaves out what is not asked for, and what is no number.
-void keep_wanted(Rows& rows, const ReadOptions& options) {
-  const auto is_finite = [](double value) { return std::isfinite(value); };
-  const bool is_whole = !options.rows && !options.window && std::ranges::all_of(rows.time_s, is_finite) &&
-                        std::ranges::all_of(rows.force, is_finite);
-  if (is_whole) return;
-  std::vector<std::size_t> kept;
-  for (std::size_t i = 0; i < rows.time_s.size(); ++i) {
-    const double time_s = rows.time_s[i];
-    if (options.rows && (i + 1 < options.rows->first || i + 1 > options.rows->last)) continue;
-    if (options.window && std::isfinite(time_s)) {
-      const TimeWindow clock = rows.clock.value_or(TimeWindow{time_s, time_s});
-      rows.clock = TimeWindow{std::min(clock.begin_s, time_s), std::max(clock.end_s, time_s)};
-      if (time_s < options.window->begin_s || time_s > options.window->end_s) continue;
-    }
-    const bool is_number = std::isfinite(time_s) && std::isfinite(rows.force[i]);
-    if (is_number) kept.push_back(i);
-    rows.without_number += is_number ? 0U : 1U;
-  }
-  if (kept.size() < rows.time_s.size()) rows.keep(kept);
-}
-
 }  // namespace
 
 LoadedFile load_samples(Samples samples, const ReadOptions& options) {
@@ -99,7 +75,7 @@ LoadedFile load_samples(Samples samples, const ReadOptions& options) {
   rows.time_s = samples.time.empty() ? even_clock(rows.count, *options.sample_rate_Hz) : std::move(samples.time);
   if (file.choice.time) scale_by(rows.time_s, time.scale);
   scale_by(rows.force, file.choice.force.scale);
-  keep_wanted(rows, options);
+  rows.keep_wanted(options.rows, options.window);
   return file;
 }
 

@@ -43,22 +43,9 @@ Part take_step(Rows rows, const ReadOptions& options, const std::string& file) {
                      several(steps.size()), taken.number, rows_of(rows, taken))});
     part.assumed.push_back(fmt::format("Step {} is the recording ({}).", taken.number, rows_of(rows, taken)));
   }
-  rows.cut(taken.begin, taken.end);
+  rows.cut(taken);
   part.rows = std::move(rows);
   return part;
-}
-
-void take_window(Rows& rows, const TimeWindow& window) {
-  if (rows.time_s.empty()) return;
-  std::vector<std::size_t> inside;
-  TimeWindow clock{rows.time_s.front(), rows.time_s.front()};
-  for (std::size_t i = 0; i < rows.time_s.size(); ++i) {
-    const double time_s = rows.time_s[i];
-    clock = {std::min(clock.begin_s, time_s), std::max(clock.end_s, time_s)};
-    if (time_s >= window.begin_s && time_s <= window.end_s) inside.push_back(i);
-  }
-  rows.clock = clock;
-  rows.keep(inside);
 }
 
 /// Leaves out what lies before an earlier sample.
@@ -148,9 +135,9 @@ void check_extent(const Rows& rows, const LoadedFile& file) {
   if (rows.time_s.size() >= 2) return;
   const std::string held = counted(rows.time_s.size(), "sample");
   if (file.options.window && rows.clock) {
-    throw ThrownError(
-        {"window_empty", fmt::format("{}: the window {}:{} s contains {}; {}", file.name, file.options.window->begin_s,
-                                     file.options.window->end_s, held, clock_range(rows))});
+    throw ThrownError({"window_empty",
+                       fmt::format("{}: the window {}:{} s contains {}; {}; choose another with --window", file.name,
+                                   file.options.window->begin_s, file.options.window->end_s, held, clock_range(rows))});
   }
   const auto& where = file.choice.where;
   if (!file.options.rows && !where) return;
@@ -197,7 +184,7 @@ std::vector<std::string> part_sentences(const Part& part, const LoadedFile& file
 
 Part take_part(Rows rows, const ReadOptions& options, const std::string& file) {
   Part part = take_step(std::move(rows), options, file);
-  if (options.step && options.window) take_window(part.rows, *options.window);
+  if (options.step && options.window) part.rows.keep_wanted({}, options.window);
   order_by_time(part);
   return part;
 }
@@ -206,8 +193,7 @@ std::vector<Part> take_segments(const Rows& rows) {
   std::vector<Part> segments;
   for (const Step& step : segments_of_steps(rows, find_steps(rows))) {
     Part part;
-    part.rows = rows;
-    part.rows.cut(step.begin, step.end);
+    part.rows = rows.part(step);
     part.assumed.push_back(fmt::format("Segment {} was read ({}).", step.number, rows_of(rows, step)));
     order_by_time(part);
     segments.push_back(std::move(part));

@@ -18,7 +18,8 @@ constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
 constexpr double kDay_s = 86400.0;
 
 /// The values that may be read from a line. `Where` is compared, not kept.
-enum Slot : std::size_t { kTime, kForce, kWay, kNormalForce, kVelocity, kStepNumber, kWhere, kSlots };
+/// Behind `kSide` come those of kSideColumns.
+enum Slot : std::size_t { kTime, kForce, kWhere, kSide, kSlots = kSide + kSideColumns.size() };
 
 /// The numbers of a line; NaN where there is none. There is one for all lines: a copy of what was just written stalls.
 struct Reading {
@@ -28,22 +29,19 @@ struct Reading {
 
 struct WantedColumn {
   std::size_t column = 0;
-  Slot slot = kTime;
+  std::size_t slot = kTime;
   double scale = 1.0;  ///< to SI
 };
 
 /// In the order of the columns.
 std::vector<WantedColumn> wanted_columns(const Choice& choice) {
   std::vector<WantedColumn> wanted;
-  const auto add = [&](const std::optional<Channel>& channel, Slot slot) {
+  const auto add = [&](const std::optional<Channel>& channel, std::size_t slot) {
     if (channel) wanted.push_back({channel->column, slot, channel->scale});
   };
   add(choice.force, kForce);
   add(choice.time, kTime);
-  add(choice.displacement, kWay);
-  add(choice.normal_force, kNormalForce);
-  add(choice.speed, kVelocity);
-  if (choice.step) wanted.push_back({*choice.step, kStepNumber});
+  for (std::size_t i = 0; i < kSideColumns.size(); ++i) add(choice.*kSideColumns[i].channel, kSide + i);
   if (choice.where) wanted.push_back({choice.where->column, kWhere});
   std::ranges::stable_sort(wanted, [](const WantedColumn& a, const WantedColumn& b) { return a.column < b.column; });
   return wanted;
@@ -220,10 +218,12 @@ void RowReader::keep(unsigned number) {
   note_place(number);
   rows_.time_s.push_back(time_s);
   rows_.force.push_back(values[kForce]);
-  if (plan_.choice.displacement) rows_.displacement_m.push_back(values[kWay]);
-  if (plan_.choice.normal_force) rows_.normal_force_N.push_back(std::abs(values[kNormalForce]));
-  if (plan_.choice.speed) rows_.speed_m_per_s.push_back(std::abs(values[kVelocity]));
-  if (plan_.choice.step) rows_.step.push_back(values[kStepNumber]);
+  for (std::size_t i = 0; i < kSideColumns.size(); ++i) {
+    const SideColumn& side = kSideColumns[i];
+    if (!(plan_.choice.*side.channel)) continue;
+    const double value = values[kSide + i];
+    (rows_.*side.values).push_back(side.is_magnitude ? std::abs(value) : value);
+  }
 }
 
 void RowReader::note_place(unsigned line) {
@@ -239,9 +239,10 @@ void RowReader::note_place(unsigned line) {
 /// Every vector of the samples; those without a column stay empty.
 template <class Change>
 void for_each_column(Rows& rows, const Change& change) {
-  for (std::vector<double>* column :
-       {&rows.time_s, &rows.force, &rows.displacement_m, &rows.normal_force_N, &rows.speed_m_per_s, &rows.step}) {
-    if (!column->empty()) change(*column);
+  change(rows.time_s);
+  change(rows.force);
+  for (const SideColumn& side : kSideColumns) {
+    if (!(rows.*side.values).empty()) change(rows.*side.values);
   }
 }
 
@@ -256,7 +257,9 @@ RowPlace Rows::place_of(std::size_t sample) const {
   return {sample, place.row + since, place.line + static_cast<unsigned>(since)};
 }
 
-void Rows::cut(std::size_t begin, std::size_t end) {
+void Rows::cut(const SampleRange& kept) {
+  const std::size_t begin = kept.begin;
+  const std::size_t end = kept.end;
   if (begin == 0 && end == time_s.size()) return;
   const RowPlace first = place_of(begin);
   std::erase_if(places, [&](const RowPlace& place) { return place.sample <= begin || place.sample >= end; });
@@ -275,6 +278,22 @@ void Rows::keep(const std::vector<std::size_t>& samples) {
     for (std::size_t i = 0; i < samples.size(); ++i) column[i] = column[samples[i]];
     column.resize(samples.size());
   });
+}
+
+void Rows::keep_wanted(const std::optional<RowRange>& wanted_rows, const std::optional<TimeWindow>& window) {
+  std::vector<std::size_t> kept;
+  for (std::size_t i = 0; i < time_s.size(); ++i) {
+    if (wanted_rows && (i + 1 < wanted_rows->first || i + 1 > wanted_rows->last)) continue;
+    if (window && std::isfinite(time_s[i])) {
+      const TimeWindow known = clock.value_or(TimeWindow{time_s[i], time_s[i]});
+      clock = TimeWindow{std::min(known.begin_s, time_s[i]), std::max(known.end_s, time_s[i])};
+      if (time_s[i] < window->begin_s || time_s[i] > window->end_s) continue;
+    }
+    const bool is_number = std::isfinite(time_s[i]) && std::isfinite(force[i]);
+    if (is_number) kept.push_back(i);
+    without_number += is_number ? 0U : 1U;
+  }
+  if (kept.size() < time_s.size()) keep(kept);
 }
 
 Rows read_rows(std::unique_ptr<TextSource> source, const RowPlan& plan) {

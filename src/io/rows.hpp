@@ -1,11 +1,13 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <vector>
 
+#include "core/sample_range.hpp"
 #include "io/columns.hpp"
 #include "io/layout.hpp"
 #include "io/text_source.hpp"
@@ -53,11 +55,28 @@ struct Rows {
 
   /// Row number and line of a sample.
   [[nodiscard]] RowPlace place_of(std::size_t sample) const;
-  /// Keeps samples [begin, end).
-  void cut(std::size_t begin, std::size_t end);
+  void cut(const SampleRange& kept);
+  [[nodiscard]] Rows part(const SampleRange& range) const {
+    Rows own = *this;
+    own.cut(range);
+    return own;
+  }
+  /// Keeps the samples in the rows and in the window that have a time and a force; counts those without.
+  void keep_wanted(const std::optional<RowRange>& wanted_rows, const std::optional<TimeWindow>& window);
   /// Keeps the samples of these indices, ascending.
   void keep(const std::vector<std::size_t>& samples);
 };
+
+/// A column besides time and force: where it is chosen, and where its values are kept.
+struct SideColumn {
+  std::optional<Channel> Choice::*channel = nullptr;
+  std::vector<double> Rows::*values = nullptr;
+  bool is_magnitude = false;  ///< without sign
+};
+inline constexpr std::array<SideColumn, 4> kSideColumns{{{&Choice::displacement, &Rows::displacement_m, false},
+                                                         {&Choice::normal_force, &Rows::normal_force_N, true},
+                                                         {&Choice::speed, &Rows::speed_m_per_s, true},
+                                                         {&Choice::step, &Rows::step, false}}};
 
 /// One pass, 16 bytes a sample, 8 for each further column. Throws what TextLines throws.
 Rows read_rows(std::unique_ptr<TextSource> source, const RowPlan& plan);

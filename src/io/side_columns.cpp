@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 
@@ -14,12 +15,15 @@
 namespace slipfit::reading {
 namespace {
 
-std::optional<std::size_t> only_one(const std::vector<std::size_t>& found) {
-  return found.size() == 1 ? std::optional(found.front()) : std::nullopt;
+int score_of_normal_force(const Column& column) {
+  if (!column.is_numeric()) return 0;
+  if (column.name.role == Role::NormalForce) return column.name.rank + 1;
+  return column.name.role == Role::TangentialForce && column.name.rank == 1 && is_load(column.name) ? 1 : 0;
 }
 
 /// A column in the unit of its name, without one in SI.
-std::optional<Channel> channel_in(const Layout& layout, std::size_t column, Dimension dimension) {
+template <Dimension dimension>
+std::optional<Channel> in_unit(const Layout& layout, std::size_t column, const ReadOptions& /*options*/) {
   const std::string& unit = layout.columns[column].name.unit;
   const auto scale = parse_unit(unit.empty() ? "1" : unit, unit.empty() ? Dimension::Dimensionless : dimension);
   if (!scale) return std::nullopt;
@@ -27,66 +31,66 @@ std::optional<Channel> channel_in(const Layout& layout, std::size_t column, Dime
 }
 
 /// In m/s. A speed of rotation needs the radius; a column without a unit is no speed that can be relied on.
-std::optional<Channel> speed_channel(const Layout& layout, std::size_t column, const std::optional<double>& radius_m) {
+std::optional<Channel> speed_channel(const Layout& layout, std::size_t column, const ReadOptions& options) {
   const std::string& unit = layout.columns[column].name.unit;
   if (const auto speed = parse_unit(unit, Dimension::Speed)) {
     return Channel{column, speed.value().scale, ForceQuantity::Force_N, {}};
   }
   const auto rotation = parse_unit(unit, Dimension::AngularSpeed);
-  if (!rotation || !radius_m) return std::nullopt;
-  return Channel{column, rotation.value().scale * *radius_m, ForceQuantity::Force_N, {}};
+  if (!rotation || !options.radius_m) return std::nullopt;
+  return Channel{column, rotation.value().scale * *options.radius_m, ForceQuantity::Force_N, {}};
 }
 
-/// The first displacement whose unit is a length.
-std::optional<Channel> choose_displacement(const Layout& layout, const Choice& choice) {
-  for (std::size_t c = 0; c < layout.columns.size(); ++c) {
-    const Column& column = layout.columns[c];
-    if (column.name.role != Role::Displacement || !column.is_numeric() || column.name.unit.empty()) continue;
-    if (c == choice.force.column || (choice.time && c == choice.time->column)) continue;
-    if (auto channel = channel_in(layout, c, Dimension::Length)) return channel;
+/// How a column besides time and force is found.
+struct SideRole {
+  std::optional<Channel> Choice::*channel = nullptr;
+  /// How well a column fits the role; 0: not at all.
+  int (*score)(const Column&) = nullptr;
+  std::optional<Channel> (*in_SI)(const Layout&, std::size_t, const ReadOptions&) = nullptr;
+  bool takes_first = false;  ///< of several that fit alike; else none
+  std::optional<std::string> ReadOptions::*asked = nullptr;
+  const char* option = "";
+  const char* expected = "";  ///< of the unit
+};
+
+const std::array kSideRoles = std::to_array<SideRole>(
+    {{&Choice::normal_force, score_of_normal_force, in_unit<Dimension::Force>, false, &ReadOptions::normal_force_column,
+      "--normal-force-column", "a unit of force"},
+     {&Choice::speed,
+      [](const Column& column) {
+        return column.name.role == Role::Speed && column.is_numeric() ? column.name.rank : 0;
+      },
+      speed_channel, false, &ReadOptions::speed_column, "--speed-column",
+      "a unit of speed, nor of rotational speed with --radius"},
+     {&Choice::displacement,
+      [](const Column& column) {
+        const bool fits = column.name.role == Role::Displacement && column.is_numeric() && !column.name.unit.empty();
+        return fits && parse_unit(column.name.unit, Dimension::Length) ? 1 : 0;
+      },
+      in_unit<Dimension::Length>, true},
+     // Further columns of step numbers repeat the first or count within it.
+     {&Choice::step,
+      [](const Column& column) { return column.name.role == Role::Step && column.is_whole ? column.name.rank : 0; },
+      [](const Layout&, std::size_t column, const ReadOptions&) {
+        return std::optional(Channel{column, 1.0, ForceQuantity::Force_N, {}});
+      },
+      true}});
+
+std::optional<Channel> choose(const SideRole& role, const Layout& layout, const ReadOptions& options,
+                              const Choice& choice, const std::string& file) {
+  if (role.asked != nullptr && options.*role.asked) {
+    const std::size_t column = find_column(layout, *(options.*role.asked), role.option, file);
+    if (auto channel = role.in_SI(layout, column, options)) return channel;
+    throw ThrownError({"unknown_unit", fmt::format("{}: the unit of {}: '{}' is not {}; leave the option out", file,
+                                                   describe(layout, column),
+                                                   printable(layout.columns[column].name.unit), role.expected)});
   }
-  return std::nullopt;
-}
-
-/// Returns the column of the normal force by its name, or nothing if none or several are possible.
-std::optional<std::size_t> find_normal_force(const Layout& layout, std::optional<std::size_t> force) {
-  return only_one(best_columns(layout, [&](const Column& column, std::size_t c) {
-    if (!column.is_numeric() || (force && *force == c)) return 0;
-    if (column.name.role == Role::NormalForce) return column.name.rank + 1;
-    return column.name.role == Role::TangentialForce && column.name.rank == 1 && is_load(column.name) ? 1 : 0;
-  }));
-}
-
-ThrownError side_unit_error(const Layout& layout, std::size_t column, const std::string& file,
-                            const std::string& expected) {
-  const std::string& unit = layout.columns[column].name.unit;
-  return ThrownError({"unknown_unit", fmt::format("{}: the unit of {}: '{}' is not {}; leave the option out", file,
-                                                  describe(layout, column), printable(unit), expected)});
-}
-
-std::optional<Channel> choose_normal_force(const Layout& layout, const ReadOptions& options, const Choice& choice,
-                                           const std::string& file) {
-  if (!options.normal_force_column) {
-    const auto column = find_normal_force(layout, choice.force.column);
-    return column ? channel_in(layout, *column, Dimension::Force) : std::nullopt;
-  }
-  const std::size_t column = find_column(layout, *options.normal_force_column, "--normal-force-column", file);
-  auto channel = channel_in(layout, column, Dimension::Force);
-  if (!channel) throw side_unit_error(layout, column, file, "a unit of force");
-  return channel;
-}
-
-std::optional<Channel> choose_speed(const Layout& layout, const ReadOptions& options, const std::string& file) {
-  if (!options.speed_column) {
-    const auto column = only_one(best_columns(layout, [](const Column& candidate, std::size_t) {
-      return candidate.name.role == Role::Speed && candidate.is_numeric() ? candidate.name.rank : 0;
-    }));
-    return column ? speed_channel(layout, *column, options.radius_m) : std::nullopt;
-  }
-  const std::size_t column = find_column(layout, *options.speed_column, "--speed-column", file);
-  auto channel = speed_channel(layout, column, options.radius_m);
-  if (!channel) throw side_unit_error(layout, column, file, "a unit of speed, nor of rotational speed with --radius");
-  return channel;
+  const auto found = best_columns(layout, [&](const Column& column, std::size_t c) {
+    const bool is_taken = c == choice.force.column || (choice.time && c == choice.time->column);
+    return is_taken ? 0 : role.score(column);
+  });
+  const bool is_clear = found.size() == 1 || (role.takes_first && !found.empty());
+  return is_clear ? role.in_SI(layout, found.front(), options) : std::nullopt;
 }
 
 std::optional<WhereFilter> choose_where(const Layout& layout, const ReadOptions& options, const std::string& file) {
@@ -96,30 +100,25 @@ std::optional<WhereFilter> choose_where(const Layout& layout, const ReadOptions&
   return WhereFilter{column, options.where->value, std::isfinite(number) ? std::optional(number) : std::nullopt};
 }
 
-/// The first column of step numbers: further ones repeat it or count within it.
-std::optional<std::size_t> find_steps(const Layout& layout) {
-  const auto found = best_columns(layout, [](const Column& column, std::size_t) {
-    return column.name.role == Role::Step && column.is_whole ? column.name.rank : 0;
-  });
-  return found.empty() ? std::nullopt : std::optional(found.front());
-}
-
 }  // namespace
 
 std::vector<std::size_t> those_of_coefficient(const Layout& layout, std::vector<std::size_t> candidates) {
   constexpr double kTolerance = 0.02;  // filters and printed decimals
   constexpr std::size_t kFewest = 8;
-  const auto coefficient = only_one(best_columns(layout, [](const Column& column, std::size_t) {
+  const auto coefficients = best_columns(layout, [](const Column& column, std::size_t) {
     return column.name.role == Role::FrictionCoefficient && column.is_numeric() ? column.name.rank : 0;
-  }));
-  const auto normal = find_normal_force(layout, std::nullopt);
-  if (!coefficient || !normal) return candidates;
+  });
+  const auto normals =
+      best_columns(layout, [](const Column& column, std::size_t) { return score_of_normal_force(column); });
+  if (coefficients.size() != 1 || normals.size() != 1) return candidates;
+  const std::vector<double>& coefficient = layout.columns[coefficients.front()].values;
+  const std::vector<double>& normal = layout.columns[normals.front()].values;
   const auto is_its_force = [&](std::size_t c) {
     std::size_t alike = 0;
     std::size_t compared = 0;
     for (std::size_t row = 0; row < layout.columns[c].values.size(); ++row) {
-      const double mu = std::abs(layout.columns[*coefficient].values[row]);
-      const double quotient = std::abs(layout.columns[c].values[row] / layout.columns[*normal].values[row]);
+      const double mu = std::abs(coefficient[row]);
+      const double quotient = std::abs(layout.columns[c].values[row] / normal[row]);
       if (!std::isfinite(quotient) || !std::isfinite(mu) || mu == 0.0) continue;
       ++compared;
       if (std::abs(quotient - mu) <= kTolerance * mu) ++alike;
@@ -138,11 +137,8 @@ double radius_for_torque(const std::optional<double>& radius_m, const std::strin
 }
 
 Choice with_side_columns(Choice choice, const Layout& layout, const ReadOptions& options, const std::string& file) {
-  choice.normal_force = choose_normal_force(layout, options, choice, file);
-  choice.speed = choose_speed(layout, options, file);
+  for (const SideRole& role : kSideRoles) choice.*role.channel = choose(role, layout, options, choice, file);
   choice.where = choose_where(layout, options, file);
-  choice.displacement = choose_displacement(layout, choice);
-  choice.step = find_steps(layout);
   return choice;
 }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "report/names.hpp"
 #include "report/quantities.hpp"
@@ -12,20 +13,6 @@
 
 namespace slipfit {
 namespace {
-
-/// "5.983 N" with the note "standard deviation 0.054 N": rounded by the spread, both in one unit.
-Row with_spread(const char* label, std::optional<double> value, std::optional<double> spread,
-                const std::string& SI_unit) {
-  if (!value || !spread) return {label, quantity_text(value, SI_unit)};
-  const DisplayUnit unit = display_unit(SI_unit, value);
-  const double shown_spread = *spread * unit.per_SI;
-  const std::string blank_unit = unit.unit.empty() ? std::string() : " " + unit.unit;
-  return {label,
-          rounded(*value * unit.per_SI, shown_spread) + blank_unit,
-          {},
-          {},
-          "standard deviation " + rounded(shown_spread, shown_spread) + blank_unit};
-}
 
 /// Returns the row of the trend, or nothing if the level has no significant trend.
 std::optional<Row> trend_row(const Analysis& analysis, ForceQuantity quantity) {
@@ -94,6 +81,29 @@ void Block::add(std::string_view label, const Estimate& estimate, const DisplayU
 
 namespace {
 
+/// Adds the quantities of a table; those in N/m only if the force column holds newtons.
+template <class Table, class Owner>
+void add_all(Block& block, const Table& table, const Owner& owner, const Conditions& conditions) {
+  for (const auto& quantity : table) {
+    if (quantity.unit == "N/m" && conditions.quantity != ForceQuantity::Force_N) continue;
+    Estimate estimate = quantity.of(owner);
+    const DisplayUnit unit = unit_of(quantity, estimate, conditions);
+    const std::optional<double> spread = quantity.spread != nullptr ? quantity.spread(owner) : std::nullopt;
+    if (spread) {
+      const double shown = *spread * unit.per_SI;
+      estimate.standard_error = spread;  // rounds the value
+      estimate.note =
+          fmt::format("standard deviation {}{}{}", rounded(shown, shown), unit.unit.empty() ? "" : " ", unit.unit);
+    }
+    block.add(quantity.words, estimate, unit);
+  }
+}
+
+/// Leaves out rows whose value is not known, with their reasons.
+void erase_unknown(Block& block) {
+  std::erase_if(block.rows, [](const Row& row) { return row.value == "-"; });
+}
+
 Block frequency_block(const FrequencyReport& frequency) {
   const auto row = [](const char* label, const Estimate& estimate, const std::string& interval, std::string note) {
     if (estimate.value) return Row{label, with_error(estimate) + " Hz", {}, interval, std::move(note)};
@@ -117,55 +127,40 @@ Block frequency_block(const FrequencyReport& frequency) {
   return block;
 }
 
-Block cycles_block(const Analysis& analysis, ForceQuantity quantity) {
+Block cycles_block(const Analysis& analysis, const Conditions& conditions) {
   const CycleStatistics& cycles = analysis.cycles;
-  const std::string unit = force_unit(quantity);
   Block block{"cycles-numbers", "Cycles"};
   block.rows = {{"slips",
                  std::to_string(cycles.count),
                  {},
                  {},
                  fmt::format("{} minor{}, {} used in the fit", cycles.minor,
-                             cycles.minor > 0 ? " (drop below a quarter of the median)" : "", cycles.used)},
-                with_spread("period", cycles.period_s, cycles.period_sd_s, "s"),
-                {"rhythm", cycles.regularity ? std::string(name_of(*cycles.regularity)) : "-"},
-                {"slip time", quantity_text(cycles.slip_time_s, "s")},
-                {"stick time", quantity_text(cycles.stick_time_s, "s")},
-                {"sticking degree", quantity_text(cycles.sticking_degree, "")},
-                with_spread("peak force", cycles.peak_force, cycles.peak_force_sd, unit),
-                {"trough force", quantity_text(cycles.trough_force, unit)},
-                with_spread("force drop", cycles.force_drop, cycles.force_drop_sd, unit)};
-  std::erase_if(block.rows, [](const Row& row) { return row.value == "-"; });
-  if (cycles.stick_stiffness.value && quantity == ForceQuantity::Force_N)
-    block.rows.push_back({"slope of the sticks / V", with_error(cycles.stick_stiffness) + " N/m"});
-  if (auto trend = trend_row(analysis, quantity)) block.rows.push_back(*std::move(trend));
+                             cycles.minor > 0 ? " (drop below a quarter of the median)" : "", cycles.used)}};
+  if (cycles.regularity) block.rows.push_back({"rhythm", std::string(name_of(*cycles.regularity))});
+  add_all(block, kCycleQuantities, cycles, conditions);
+  erase_unknown(block);
+  if (auto trend = trend_row(analysis, conditions.quantity)) block.rows.push_back(*std::move(trend));
   return block;
 }
 
-Block transients_block(const Transients& transients, ForceQuantity quantity) {
+Block transients_block(const Transients& transients, const Conditions& conditions) {
   Block block{"transients", "Before and after the sliding"};
-  for (const auto& row : kTransients) {
-    if (row.unit == "N/m" && quantity != ForceQuantity::Force_N) continue;
-    const Estimate& estimate = transients.*row.estimate;
-    if (estimate.value) block.add(row.words, estimate, row.unit == "N" ? force_unit(quantity) : std::string(row.unit));
-  }
+  add_all(block, kTransients, transients, conditions);
+  erase_unknown(block);
   return block;
 }
 
 Block spacing_block(const Conditions& conditions, const Derived& derived) {
   Block block{"spacing", "Spacing, measured (V/f) at " + speed_text(conditions)};
-  for (const auto& row : kMeasured) block.add(row.words, derived.*row.estimate, std::string(row.unit));
-  block.add("spread of the spacing over cycles (sd)", {derived.pattern_spacing_sd_m, {}, {}, {}}, "m");
+  add_all(block, kMeasured, derived, conditions);
   if (block.rows.empty()) block.sentences.emplace_back("none");
   return block;
 }
 
-Block surface_block(const Derived& derived) {
+Block surface_block(const Conditions& conditions, const Derived& derived) {
   Block block{"worn-surface", "On the worn surface"};
   if (!derived.surface_spacing_m) return block;
-  block.add("pattern on the worn surface", *derived.surface_spacing_m, "m");
-  block.add("over the spacing by force (V/f)", derived.surface_ratio.value_or(Estimate{}), "");
-  block.add("E_n of the two (agreement within +-1)", derived.surface_En.value_or(Estimate{}), "");
+  add_all(block, kOnSurface, derived, conditions);
   block.sentences.push_back(printable(derived.surface_verdict));
   return block;
 }
@@ -176,14 +171,7 @@ Block predicted_block(const Conditions& conditions, const Derived& derived) {
     block.sentences.push_back("nothing: " + printable(derived.lambda.note));
     return block;
   }
-  for (const auto& row : kPredicted) {
-    const Estimate& estimate = derived.*row.estimate;
-    if (row.unit == "m/s") {
-      block.add(row.words, estimate, speed_unit(conditions.speed_unit, estimate.value));
-    } else {
-      block.add(row.words, estimate, std::string(row.unit));
-    }
-  }
+  add_all(block, kPredicted, derived, conditions);
   if (derived.regime) block.sentences.push_back(regime_sentence(*derived.regime));
   return block;
 }
@@ -199,9 +187,9 @@ Block tests_block(const std::vector<ShortTest>& tests) {
 Block coefficients_block(const std::optional<Coefficients>& coefficients) {
   Block block{"coefficients", "Coefficient of friction"};
   if (!coefficients) return block;
-  for (const auto& row : kCoefficients) block.add(row.words, (*coefficients).*row.estimate, "");
-  for (const auto& row : kCoefficientThirds) block.add(row.words, (*coefficients).*row.estimate, "");
-  for (const auto& row : kCoefficientSpreads) block.add(row.words, {(*coefficients).*row.value, {}, {}, {}}, "");
+  add_all(block, kCoefficients, *coefficients, {});
+  add_all(block, kCoefficientThirds, *coefficients, {});
+  add_all(block, kCoefficientSpreads, *coefficients, {});
   for (const StandardCoefficients& standard : coefficients->standards) {
     Estimate kinetic = standard.kinetic_coefficient;
     kinetic.note =
@@ -260,6 +248,24 @@ Block models_block(const FitResult& fit, ForceQuantity quantity) {
   return block;
 }
 
+Block correlations_block(const FitResult& fit) {
+  constexpr double kWorthShowing = 0.7;  // half of the variance of one follows from the other
+  Block block{"correlations", "Correlated parameters"};
+  if (!fit.correlation) return block;
+  const auto& [names, matrix] = *fit.correlation;
+  std::vector<std::pair<double, std::string>> pairs;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (std::abs(matrix[i][j]) < kWorthShowing) continue;
+      pairs.emplace_back(matrix[i][j],
+                         fmt::format("{}; {}", quantity_with_key(names[j]).words, quantity_with_key(names[i]).words));
+    }
+  }
+  std::ranges::stable_sort(pairs, [](const auto& a, const auto& b) { return std::abs(a.first) > std::abs(b.first); });
+  for (const auto& [correlation, words] : pairs) block.rows.push_back({words, fmt::format("{:+.3f}", correlation)});
+  return block;
+}
+
 Block repeats_block(const std::vector<Repeat>& repeats) {
   Block block{"repeats", "At one speed: scatter between the recordings"};
   for (const Repeat& repeat : repeats) {
@@ -274,10 +280,10 @@ Block repeats_block(const std::vector<Repeat>& repeats) {
 std::vector<Block> number_blocks(const Recording& recording, const Analysis& analysis) {
   const Conditions& conditions = recording.conditions();
   std::vector<Block> blocks{frequency_block(analysis.frequency)};
-  if (analysis.motion != MotionClass::SteadySliding) blocks.push_back(cycles_block(analysis, conditions.quantity));
-  blocks.push_back(transients_block(analysis.transients, conditions.quantity));
+  if (analysis.motion != MotionClass::SteadySliding) blocks.push_back(cycles_block(analysis, conditions));
+  blocks.push_back(transients_block(analysis.transients, conditions));
   blocks.push_back(spacing_block(conditions, analysis.derived));
-  blocks.push_back(surface_block(analysis.derived));
+  blocks.push_back(surface_block(conditions, analysis.derived));
   const bool moves_like_model =
       analysis.motion == MotionClass::StickSlip || analysis.motion == MotionClass::OscillatorySlip;
   if (moves_like_model) blocks.push_back(predicted_block(conditions, analysis.derived));

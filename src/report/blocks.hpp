@@ -39,6 +39,8 @@ Block coefficients_block(const std::optional<Coefficients>& coefficients);
 Block quality_block(const Recording& recording, const Analysis& analysis);
 /// The models that were compared, what the chosen one leaves over, and what it assumes.
 Block models_block(const FitResult& fit, ForceQuantity quantity);
+/// Returns the pairs of parameters that the data hardly distinguish, the closest first; empty if there are none.
+Block correlations_block(const FitResult& fit);
 /// Returns the block of the recordings at one speed.
 Block repeats_block(const std::vector<Repeat>& repeats);
 

@@ -177,7 +177,7 @@ std::string to_text(const Comparison& comparison) {
   text += table.text();
   const std::vector<NotCompared> left = not_compared(comparison);
   if (!left.empty()) text += "\nNot compared\n";
-  for (const NotCompared& one : left) text += fmt::format("  {}: {}\n", one.words, printable(one.reason));
+  for (const NotCompared& one : left) text += wrapped_text("  ", one.words + ": " + printable(one.reason));
   return text + warnings_text(comparison.warnings);
 }
 

@@ -57,18 +57,35 @@ std::optional<double> uncertainty_of(const Estimate& estimate) {
 }
 
 /// The unit that suits the estimate, or the end of its interval.
-DisplayUnit unit_for(const Estimate& estimate, const std::string& SI_unit) {
-  std::optional<double> typical = estimate.value;
-  if (!typical && estimate.ci95) typical = estimate.ci95->high;
-  if (typical && estimate.standard_error) typical = std::max(std::abs(*typical), *estimate.standard_error);
-  return display_unit(SI_unit, typical);
-}
-
 }  // namespace
 
 std::size_t shown_width(std::string_view text) {
   return static_cast<std::size_t>(
       std::ranges::count_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
+}
+
+std::vector<std::string> wrapped(const std::string& first, const std::string& text) {
+  std::vector<std::string> lines{first};
+  std::size_t begin = 0;
+  while (begin < text.size()) {
+    const std::size_t end = std::min(text.find(' ', begin), text.size());
+    const std::string word = text.substr(begin, end - begin);
+    const bool is_empty = lines.back().find_last_not_of(' ') + 1 <= first.size() && lines.back().size() == first.size();
+    if (!is_empty && shown_width(lines.back()) + 1 + shown_width(word) > kLineWidth) {
+      lines.emplace_back(first.size(), ' ');
+      lines.back() += word;
+    } else {
+      lines.back() += (is_empty ? "" : " ") + word;
+    }
+    begin = end + 1;
+  }
+  return lines;
+}
+
+std::string wrapped_text(const std::string& first, const std::string& text) {
+  std::string all;
+  for (const std::string& line : wrapped(first, text)) all += line + "\n";
+  return all;
 }
 
 std::string rounded(double value, std::optional<double> uncertainty) {
@@ -104,6 +121,13 @@ DisplayUnit display_unit(const std::string& SI_unit, std::optional<double> typic
   return {1e9 * base_per_SI, "n" + base};
 }
 
+DisplayUnit suitable_unit(const Estimate& estimate, const std::string& SI_unit) {
+  std::optional<double> typical = estimate.value;
+  if (!typical && estimate.ci95) typical = estimate.ci95->high;
+  if (typical && estimate.standard_error) typical = std::max(std::abs(*typical), *estimate.standard_error);
+  return display_unit(SI_unit, typical);
+}
+
 DisplayUnit speed_unit(const std::string& given, std::optional<double> typical_m_per_s) {
   if (!given.empty()) {
     if (const auto unit = parse_unit(given, Dimension::Speed)) return {1.0 / unit.value().scale, given};
@@ -124,7 +148,7 @@ std::string force_unit(ForceQuantity quantity) {
 }
 
 EstimateRow estimate_row(const Estimate& estimate, const std::string& SI_unit) {
-  return estimate_row(estimate, unit_for(estimate, SI_unit));
+  return estimate_row(estimate, suitable_unit(estimate, SI_unit));
 }
 
 std::string estimate_text(const Estimate& estimate, const DisplayUnit& unit) {
@@ -134,7 +158,7 @@ std::string estimate_text(const Estimate& estimate, const DisplayUnit& unit) {
 }
 
 std::string estimate_text(const Estimate& estimate, const std::string& SI_unit) {
-  return estimate_text(estimate, unit_for(estimate, SI_unit));
+  return estimate_text(estimate, suitable_unit(estimate, SI_unit));
 }
 
 EstimateRow estimate_row(const Estimate& SI, const DisplayUnit& unit) {

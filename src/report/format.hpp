@@ -26,6 +26,9 @@ struct DisplayUnit {
 /// Prefixes for m, m/s, s, N and kg (from nano to the unit itself); 1/m becomes 1/mm; other units stay.
 DisplayUnit display_unit(const std::string& SI_unit, std::optional<double> typical);
 
+/// Returns the unit that suits value and standard error of an estimate, else its interval.
+DisplayUnit suitable_unit(const Estimate& estimate, const std::string& SI_unit);
+
 /// The unit that the speed was given in; where none is known, the one that suits `typical_m_per_s`.
 DisplayUnit speed_unit(const std::string& given, std::optional<double> typical_m_per_s);
 
@@ -67,6 +70,13 @@ std::string cell(std::optional<double> value);
 
 /// Characters of a text, not bytes: the continuation bytes of UTF-8 take no room.
 std::size_t shown_width(std::string_view text);
+
+/// The characters of a line of text.
+inline constexpr std::size_t kLineWidth = 100;
+
+/// The text in lines of at most kLineWidth characters, the first after `first`, the others after as many blanks.
+std::vector<std::string> wrapped(const std::string& first, const std::string& text);
+std::string wrapped_text(const std::string& first, const std::string& text);
 
 enum class Align { Left, Right };
 

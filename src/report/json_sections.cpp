@@ -251,21 +251,27 @@ Json tests_json(const std::vector<ShortTest>& tests) {
   });
 }
 
+namespace {
+
+template <class Table, class Owner>
+void put_all(Json& json, const Table& table, const Owner& owner) {
+  for (const auto& quantity : table) json[std::string(quantity.key)] = quantity.of(owner);
+}
+
+}  // namespace
+
 Json derived_json(const Derived& derived) {
   Json json{{"regime", nullptr}, {"bistable", nullptr}};
   if (derived.regime) {
     json = {{"regime", name_of(*derived.regime)}, {"bistable", *derived.regime == Regime::StickSlipBistable}};
   }
-  for (const auto& quantity : kPredicted) json[std::string(quantity.key)] = derived.*quantity.estimate;
-  for (const auto& quantity : kMeasured) json[std::string(quantity.key)] = derived.*quantity.estimate;
-  json["pattern_spacing_sd_m"] = Estimate{derived.pattern_spacing_sd_m, {}, {}, {}};
+  put_all(json, kPredicted, derived);
+  put_all(json, kMeasured, derived);
   if (derived.observed_end) {
     json["observed_end_m_per_s"] = {derived.observed_end->sticks_m_per_s, derived.observed_end->slides_m_per_s};
   }
   if (derived.surface_spacing_m) {
-    json["surface_spacing_m"] = *derived.surface_spacing_m;
-    json["surface_ratio"] = derived.surface_ratio.value_or(Estimate{});
-    json["surface_En"] = derived.surface_En.value_or(Estimate{});
+    put_all(json, kOnSurface, derived);
     json["surface_verdict"] = derived.surface_verdict;
   }
   if (derived.measured_spacing_En) json["measured_spacing_En"] = *derived.measured_spacing_En;
@@ -276,9 +282,9 @@ Json derived_json(const Derived& derived) {
 Json coefficients_json(const std::optional<Coefficients>& coefficients) {
   if (!coefficients) return {};
   Json json = Json::object();
-  for (const auto& row : kCoefficients) json[std::string(row.key)] = (*coefficients).*row.estimate;
-  for (const auto& row : kCoefficientThirds) json[std::string(row.key)] = (*coefficients).*row.estimate;
-  for (const auto& row : kCoefficientSpreads) json[std::string(row.key)] = (*coefficients).*row.value;
+  put_all(json, kCoefficients, *coefficients);
+  put_all(json, kCoefficientThirds, *coefficients);
+  for (const auto& row : kCoefficientSpreads) json[std::string(row.key)] = row.of(*coefficients).value;
   json["standards"] = array_of(coefficients->standards, [](const StandardCoefficients& standard) {
     return Json{{"standard", standard.standard},
                 {"prescribes", standard.prescribes},
@@ -293,8 +299,7 @@ Json transients_json(const Transients& transients, ForceQuantity quantity) {
   const bool newtons = quantity == ForceQuantity::Force_N;
   Json json = Json::object();
   for (const auto& row : kTransients) {
-    const bool is_force = row.unit.starts_with('N');
-    json[std::string(row.key)] = newtons || !is_force ? Json(transients.*row.estimate) : Json();
+    json[std::string(row.key)] = newtons || !row.unit.starts_with('N') ? Json(row.of(transients)) : Json();
   }
   if (!newtons) json["breakaway_coefficient"] = transients.breakaway_force;
   return json;

@@ -32,13 +32,6 @@ void to_json(Json& json, const Interval& bounds);
 void to_json(Json& json, const Estimate& quantity);
 void to_json(Json& json, const Warning& warning);
 
-// Documents come from files: what is absent, or of another kind, is null or empty.
-Json child(const Json& json, const std::string& key);
-std::string text_in(const Json& json, const std::string& key);
-std::optional<double> number_in(const Json& json, const std::string& key);
-/// { value, se, ci95 }, the keys with this behind them.
-Estimate estimate_in(const Json& json, const std::string& suffix = {});
-
 /// [to_json(item), ...]
 template <class Items, class ToJson>
 Json array_of(const Items& items, ToJson to_json) {

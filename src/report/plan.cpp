@@ -104,8 +104,7 @@ std::string to_text(const Plan& plan, const PredictionSource& source) {
         " at " + quantity_text(*plan.target.speed_m_per_s, speed_unit(source.speed_unit, plan.target.speed_m_per_s));
   text += fmt::format(", known to {} (standard error) from {}\n", percent(plan.standard_error, plan.value),
                       printable(source.name));
-  for (const std::string& condition : source.conditional_on) text += "  assumed: " + printable(condition) + "\n";
-  return text + options_text(plan, source) + limits_text(plan);
+  return text + conditions_text(source.conditional_on) + options_text(plan, source) + limits_text(plan);
 }
 
 }  // namespace slipfit

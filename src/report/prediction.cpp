@@ -3,41 +3,20 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <iterator>
 #include <optional>
-#include <string_view>
 
 #include "report/format.hpp"
 #include "report/json_sections.hpp"
 #include "report/json_values.hpp"
 #include "report/names.hpp"
+#include "report/quantities.hpp"
 #include "report/text_sections.hpp"
 #include "slipfit/core/printable.hpp"
 #include "slipfit/report/text.hpp"
 
 namespace slipfit {
 namespace {
-
-/// A quantity of a predicted motion: its key is name + unit_suffix ("period" + "_s"); docs/formats.md lists them.
-struct PredictedQuantity {
-  std::string_view name;
-  std::string_view unit_suffix;
-  Estimate PredictedMotion::*estimate;
-};
-
-constexpr std::array<PredictedQuantity, 10> kPredictedQuantities{{
-    {"lambda", "", &PredictedMotion::lambda},
-    {"period", "_s", &PredictedMotion::period_s},
-    {"frequency", "_Hz", &PredictedMotion::frequency_Hz},
-    {"slip_time", "_s", &PredictedMotion::slip_time_s},
-    {"stick_time", "_s", &PredictedMotion::stick_time_s},
-    {"sticking_degree", "", &PredictedMotion::sticking_degree},
-    {"periodic_displacement", "_m", &PredictedMotion::periodic_displacement_m},
-    {"micro_vibration_spacing", "_m", &PredictedMotion::micro_vibration_spacing_m},
-    {"force_peak", "_N", &PredictedMotion::force_peak_N},
-    {"force_trough", "_N", &PredictedMotion::force_trough_N},
-}};
 
 Json quantity_json(const Estimate& quantity) {
   Json json{{"value", quantity.value}, {"ci95", quantity.ci95}};
@@ -51,23 +30,27 @@ bool is_bistable(const PredictedMotion& row) {
 
 Json row_json(const PredictedMotion& row) {
   Json json{{"speed_m_per_s", row.speed_m_per_s}, {"regime", name_of(row.regime)}, {"bistable", is_bistable(row)}};
-  for (const PredictedQuantity& quantity : kPredictedQuantities) {
-    json[std::string(quantity.name) + std::string(quantity.unit_suffix)] = quantity_json(row.*quantity.estimate);
-  }
+  for (const auto& quantity : kMotionQuantities) json[std::string(quantity.key)] = quantity_json(quantity.of(row));
   if (!row.note.empty()) json["note"] = row.note;
   return json;
 }
 
 std::string header() {
   std::string text = "speed_m_per_s,regime,bistable";
-  for (const PredictedQuantity& quantity : kPredictedQuantities) {
-    text += fmt::format(",{0}{1},{0}_low{1},{0}_high{1}", quantity.name, quantity.unit_suffix);
+  for (const auto& quantity : kMotionQuantities) {
+    text += fmt::format(",{},{},{}", quantity.key, key_of(quantity, "_low"), key_of(quantity, "_high"));
   }
   return text + "\n";
 }
 
 std::string regime_words(const PredictedMotion& row, const std::string& mark) {
   return (is_bistable(row) ? "stick-slip, bistable" : plain_words(name_of(row.regime))) + mark;
+}
+
+bool is_in_text(const Quantity& quantity) {
+  constexpr auto kShown =
+      std::to_array<std::string_view>({"period_s", "frequency_Hz", "periodic_displacement_m", "sticking_degree"});
+  return std::ranges::find(kShown, quantity.key) != kShown.end();
 }
 
 /// Each note of the rows once; the rows that it is about bear its mark.
@@ -83,7 +66,7 @@ class Footnotes {
   [[nodiscard]] std::string text() const {
     std::string text;
     for (std::size_t i = 0; i < notes_.size(); ++i) {
-      text += fmt::format("  {} {}\n", std::string(i + 1, '*'), printable(notes_[i]));
+      text += wrapped_text(fmt::format("  {} ", std::string(i + 1, '*')), printable(notes_[i]));
     }
     return text;
   }
@@ -111,8 +94,8 @@ std::string prediction_to_csv(const Prediction& prediction) {
   for (const PredictedMotion& row : prediction.rows) {
     fmt::format_to(std::back_inserter(csv), "{},{},{}", cell(row.speed_m_per_s), name_of(row.regime),
                    is_bistable(row) ? 1 : 0);
-    for (const PredictedQuantity& quantity : kPredictedQuantities) {
-      const Estimate& estimate = row.*quantity.estimate;
+    for (const auto& quantity : kMotionQuantities) {
+      const Estimate estimate = quantity.of(row);
       const auto low = estimate.ci95 ? std::optional(estimate.ci95->low) : std::nullopt;
       const auto high = estimate.ci95 ? std::optional(estimate.ci95->high) : std::nullopt;
       fmt::format_to(std::back_inserter(csv), ",{},{},{}", cell(estimate.value), cell(low), cell(high));
@@ -124,14 +107,21 @@ std::string prediction_to_csv(const Prediction& prediction) {
 
 std::string to_text(const Prediction& prediction, const PredictionSource& source) {
   Table table({Align::Right, Align::Left, Align::Left, Align::Left, Align::Left, Align::Left});
-  table.add({"speed", "period", "frequency", "spacing V T", "sticking degree", "regime"});
+  std::vector<std::string> head{"speed"};
+  for (const auto& quantity : kMotionQuantities) {
+    if (is_in_text(quantity)) head.emplace_back(quantity.words);
+  }
+  head.emplace_back("regime");
+  table.add(std::move(head));
   Footnotes notes;
   bool has_bands = false;
   for (const PredictedMotion& row : prediction.rows) {
-    table.add({quantity_text(row.speed_m_per_s, speed_unit(source.speed_unit, row.speed_m_per_s)),
-               estimate_text(row.period_s, "s"), estimate_text(row.frequency_Hz, "Hz"),
-               estimate_text(row.periodic_displacement_m, "m"), estimate_text(row.sticking_degree, ""),
-               regime_words(row, notes.mark(row.note))});
+    std::vector<std::string> cells{quantity_text(row.speed_m_per_s, speed_unit(source.speed_unit, row.speed_m_per_s))};
+    for (const auto& quantity : kMotionQuantities) {
+      if (is_in_text(quantity)) cells.push_back(estimate_text(quantity.of(row), std::string(quantity.unit)));
+    }
+    cells.push_back(regime_words(row, notes.mark(row.note)));
+    table.add(std::move(cells));
     has_bands = has_bands || row.lambda.ci95.has_value();
   }
   return fmt::format("Predicted from {}{}\n", printable(source.name),

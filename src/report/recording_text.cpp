@@ -11,8 +11,8 @@ std::string warnings_text(const Warnings& warnings) {
   std::string doubts;
   std::string facts;
   for (const Warning& warning : warnings) {
-    (is_fact(warning) ? facts : doubts) += fmt::format("  {} {} [{}]\n", is_fact(warning) ? '-' : '!',
-                                                       printable(warning.message), printable(warning.code));
+    (is_fact(warning) ? facts : doubts) +=
+        wrapped_text(is_fact(warning) ? "  - " : "  ! ", printable(warning.message + " [" + warning.code + "]"));
   }
   return (doubts.empty() ? "" : "\nWarnings\n" + doubts) +
          (facts.empty() ? "" : "\nAccounted for in the analysis\n" + facts);

@@ -20,7 +20,6 @@
 namespace slipfit {
 namespace {
 
-constexpr std::size_t kWidth = 100;       // characters of a line
 constexpr std::size_t kMostLines = 25;    // of a summary: one screen
 constexpr std::size_t kMostWarnings = 5;  // those with the largest effect
 constexpr std::size_t kMostFootnotes = 3;
@@ -28,25 +27,6 @@ constexpr std::size_t kBelowSentences = 2;   // a blank line and the pointer to 
 constexpr std::size_t kRoomForWarnings = 6;  // a blank line, a warning of two lines, and what is below it
 constexpr std::size_t kLongestName = 32;     // of a path in the headline; of a longer one the name of the file
 constexpr std::size_t kMostListed = 8;       // recordings of a sweep
-
-/// The text in lines of at most kWidth characters, the first after `first`, the others after as many blanks.
-std::vector<std::string> wrapped(const std::string& first, const std::string& text) {
-  std::vector<std::string> lines{first};
-  std::size_t begin = 0;
-  while (begin < text.size()) {
-    const std::size_t end = std::min(text.find(' ', begin), text.size());
-    const std::string word = text.substr(begin, end - begin);
-    const bool is_empty = lines.back().find_last_not_of(' ') + 1 <= first.size() && lines.back().size() == first.size();
-    if (!is_empty && shown_width(lines.back()) + 1 + shown_width(word) > kWidth) {
-      lines.emplace_back(first.size(), ' ');
-      lines.back() += word;
-    } else {
-      lines.back() += (is_empty ? "" : " ") + word;
-    }
-    begin = end + 1;
-  }
-  return lines;
-}
 
 /// A sentence as a line of text ends: with a full stop.
 std::string sentence(std::string text) {
@@ -56,7 +36,7 @@ std::string sentence(std::string text) {
 
 /// The text up to its first semicolon where it is longer than two lines: `--details` has the whole.
 std::string shortened(const std::string& text) {
-  return text.size() > 2 * (kWidth - 4) ? text.substr(0, text.find(';')) : text;
+  return text.size() > 2 * (kLineWidth - 4) ? text.substr(0, text.find(';')) : text;
 }
 
 std::string value_text(const EstimateRow& row) {
@@ -87,6 +67,10 @@ class Screen {
   [[nodiscard]] std::string reference(const std::string& note) const {
     const auto found = std::ranges::find(notes_, note);
     return found == notes_.end() ? note : fmt::format("({})", found - notes_.begin() + 1);
+  }
+  /// Adds a measured quantity; nothing if its value is not known.
+  void add_measured(const Quantity& quantity, const Estimate& estimate, const Conditions& conditions) {
+    if (estimate.value) add_row(full_words(quantity), estimate_row(quantity, estimate, conditions), "measured", {});
   }
   void add_recording(Row row) { recordings_.push_back(std::move(row)); }
   void add_text(const std::string& text) { below_.push_back(wrapped("  ", text)); }
@@ -143,7 +127,7 @@ std::string Screen::text() const {
     lines += rows.size() + 2;
   };
   put_table({"", "value", "95 % interval", "status"}, rows_);
-  put_table({"recording", "speed", "spacing V/f, measured", "predicted without this recording"}, recordings_);
+  put_table({"recording", "speed", std::string(kMeasured.front().words), "predicted without it"}, recordings_);
   if (!notes_.empty() || !below_.empty()) put("");
   for (std::size_t i = 0; i < notes_.size(); ++i) {
     for (const std::string& line : wrapped(fmt::format("  ({}) ", i + 1), sentence(printable(notes_[i])))) put(line);
@@ -254,15 +238,13 @@ void add_parameters(Screen& screen, const FitResult& fit, bool zero_is_known) {
 }
 
 /// Adds the properties of the cycles that need no fit.
-void add_cycles(Screen& screen, const CycleStatistics& cycles, ForceQuantity quantity) {
-  const auto add = [&](std::string_view label, std::optional<double> value, const std::string& unit) {
-    if (value) screen.add_row(label, estimate_row(Estimate{value, {}, {}, {}}, unit), "measured", {});
-  };
-  add("period", cycles.period_s, "s");
-  add("peak force", cycles.peak_force, force_unit(quantity));
-  add("force drop", cycles.force_drop, force_unit(quantity));
-  if (cycles.stick_stiffness.value && quantity == ForceQuantity::Force_N)
-    screen.add_row("slope of the sticks / V", estimate_row(cycles.stick_stiffness, std::string("N/m")), "measured", {});
+void add_cycles(Screen& screen, const CycleStatistics& cycles, const Conditions& conditions) {
+  constexpr auto kShown = std::to_array<std::string_view>({"period_s", "peak_force_N", "force_drop_N"});
+  for (const auto& quantity : kCycleQuantities) {
+    const bool is_stiffness = quantity.unit == "N/m" && conditions.quantity == ForceQuantity::Force_N;
+    if (is_stiffness || std::ranges::find(kShown, quantity.key) != kShown.end())
+      screen.add_measured(quantity, quantity.of(cycles), conditions);
+  }
 }
 
 void add_below_table(Screen& screen, const FitResult& fit, ForceQuantity quantity) {
@@ -294,26 +276,18 @@ std::string to_summary(const Recording& recording, const Analysis& analysis) {
   const bool has_fit = analysis.fit && has_slips;
   if (has_fit) add_parameters(screen, *analysis.fit, conditions.zero_force_N.has_value());
   const Derived& derived = analysis.derived;
-  if (derived.pattern_spacing_m.value)
-    screen.add_row("spacing of the pattern V/f", estimate_row(derived.pattern_spacing_m, std::string("m")), "measured",
-                   {});
+  screen.add_measured(kMeasured.front(), derived.pattern_spacing_m, conditions);
   if (const Estimate& critical = derived.critical_speed_m_per_s; critical.value) {
-    const Parameter* const zeta = has_fit ? analysis.fit->find(ParameterId::DampingRatio) : nullptr;
-    screen.add_row("critical speed", estimate_row(critical, speed_unit(conditions.speed_unit, critical.value)),
-                   zeta != nullptr ? std::string(name_of(zeta->status)) : std::string("derived"),
-                   zeta != nullptr ? zeta->estimate.note : critical.note);
+    const Quantity& quantity = quantity_with_key("critical_speed_m_per_s");
+    const StatusAndNote known = critical_speed_status(analysis);
+    screen.add_row(quantity.words, estimate_row(quantity, critical, conditions), known.status, known.note);
   }
   if (analysis.coefficients) {
-    for (const auto& row : kCoefficients) {
-      const Estimate& coefficient = (*analysis.coefficients).*row.estimate;
-      if (coefficient.value)
-        screen.add_row("coefficient of friction, " + std::string(row.words), estimate_row(coefficient, std::string()),
-                       "measured", {});
-    }
+    for (const auto& row : kCoefficients) screen.add_measured(row, row.of(*analysis.coefficients), conditions);
   }
   if (analysis.motion != MotionClass::StickSlip && !analysis.motion_reason.empty())
     screen.add_text(sentence("Reason: " + printable(analysis.motion_reason)));
-  if (!analysis.fit && has_slips) add_cycles(screen, analysis.cycles, conditions.quantity);
+  if (!analysis.fit && has_slips) add_cycles(screen, analysis.cycles, conditions);
   if (has_fit) add_below_table(screen, *analysis.fit, conditions.quantity);
   if (const std::string facts = facts_text(analysis.warnings); !facts.empty()) screen.add_text(facts);
   screen.add_warnings(analysis.warnings);
@@ -332,8 +306,9 @@ std::string to_summary(std::span<const SweepEntry> entries, const SweepAnalysis&
       entries, [](const SweepEntry& entry) { return entry.recording.conditions().zero_force_N.has_value(); });
   add_parameters(screen, sweep.fit->result, zero_is_known);
   if (const Estimate& critical = sweep.derived.critical_speed_m_per_s; critical.value) {
-    const std::string& given = entries.front().recording.conditions().speed_unit;
-    screen.add_row("critical speed", estimate_row(critical, speed_unit(given, critical.value)), "derived", {});
+    const Quantity& quantity = quantity_with_key("critical_speed_m_per_s");
+    screen.add_row(quantity.words, estimate_row(quantity, critical, entries.front().recording.conditions()), "derived",
+                   {});
   }
   add_below_table(screen, sweep.fit->result, ForceQuantity::Force_N);
   if (const std::string facts = facts_text(sweep.warnings); !facts.empty()) screen.add_text(facts);

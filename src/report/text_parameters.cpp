@@ -1,10 +1,12 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "report/blocks.hpp"
 #include "report/names.hpp"
+#include "report/quantities.hpp"
 #include "report/text_sections.hpp"
 #include "slipfit/core/printable.hpp"
 #include "slipfit/report/sweep.hpp"
@@ -30,27 +32,33 @@ std::string notes_text(const std::vector<Parameter>& parameters) {
   return text;
 }
 
-/// Each status that occurs, but for `identified`, once.
-std::string statuses_text(const std::vector<Parameter>& parameters) {
-  std::string text;
+}  // namespace
+
+std::vector<std::string> status_meanings(const std::vector<Parameter>& parameters) {
+  std::vector<std::string> meanings;
   for (const auto status : {ParameterStatus::Weak, ParameterStatus::Bounded, ParameterStatus::Unidentified,
                             ParameterStatus::Conditional, ParameterStatus::Fixed}) {
     const bool occurs =
         std::ranges::any_of(parameters, [status](const Parameter& parameter) { return parameter.status == status; });
-    if (occurs) text += fmt::format("  {}: {}\n", name_of(status), words_for_status(status));
+    if (occurs) meanings.push_back(fmt::format("{}: {}", name_of(status), words_for_status(status)));
   }
-  return text;
+  return meanings;
 }
 
-}  // namespace
-
 std::string critical_speed_text(const Estimate& speed_m_per_s, const Estimate& lambda, const std::string& given_unit) {
-  std::string text = "  critical speed: ";
+  std::string text = fmt::format("  {}: ", quantity_with_key("critical_speed_m_per_s").words);
   const std::string& note = speed_m_per_s.note;
   if (!speed_m_per_s.value) return text + (note.empty() ? "not known" : printable(note)) + "\n";
   text += estimate_text(speed_m_per_s, speed_unit(given_unit, speed_m_per_s.value));
   if (!note.empty()) return text + "\n  " + printable(note) + "\n";
   return text + fmt::format(", lambda there {}\n", estimate_text(lambda, display_unit("", {})));
+}
+
+StatusAndNote critical_speed_status(const Analysis& analysis) {
+  const bool has_fit = analysis.fit && analysis.motion != MotionClass::SteadySliding;
+  const Parameter* const zeta = has_fit ? analysis.fit->find(ParameterId::DampingRatio) : nullptr;
+  if (zeta == nullptr) return {"derived", analysis.derived.critical_speed_m_per_s.note};
+  return {std::string(name_of(zeta->status)), zeta->estimate.note};
 }
 
 std::string off_by(const Estimate& predicted, const Estimate& measured) {
@@ -63,11 +71,7 @@ std::string off_by(const Estimate& predicted, const Estimate& measured) {
 
 std::string conditions_text(const std::vector<std::string>& conditional_on) {
   if (conditional_on.empty()) return {};
-  std::string text = "  assumed: ";
-  for (std::size_t i = 0; i < conditional_on.size(); ++i) {
-    text += (i == 0 ? "" : "; ") + printable(conditional_on[i]);
-  }
-  return text + "\n";
+  return wrapped_text("  assumed: ", printable(fmt::format("{}", fmt::join(conditional_on, "; "))));
 }
 
 std::vector<ShownParameter> shown_parameters(const FitResult& fit) {
@@ -91,8 +95,9 @@ std::string parameters_text(const FitResult& fit, ForceQuantity quantity, const 
     const EstimateRow& numbers = parameter.numbers;
     table.add({parameter.words, numbers.value, numbers.unit, numbers.interval, std::string(name_of(parameter.status))});
   }
-  return fmt::format("\nParameters{}\n", caution) + table.text() + notes_text(fit.parameters) +
-         statuses_text(fit.parameters) + text_of(models_block(fit, quantity));
+  std::string text = fmt::format("\nParameters{}\n", caution) + table.text() + notes_text(fit.parameters);
+  for (const std::string& meaning : status_meanings(fit.parameters)) text += "  " + meaning + "\n";
+  return text + text_of(models_block(fit, quantity)) + text_of(correlations_block(fit));
 }
 
 std::string parameters_text(const Recording& recording, const Analysis& analysis) {
@@ -109,8 +114,8 @@ namespace {
 
 std::string recordings_text(std::span<const SweepEntry> entries, const SweepAnalysis& sweep) {
   Table table({Align::Left, Align::Right, Align::Left, Align::Left, Align::Left, Align::Left, Align::Right});
-  table.add(
-      {"recording", "speed", "shows", "kinetic friction", "spacing measured (V/f)", "predicted without it", "off by"});
+  table.add({"recording", "speed", "shows", "kinetic friction", std::string(kMeasured.front().words),
+             "predicted without it", "off by"});
   for (std::size_t i = 0; i < entries.size(); ++i) {
     const SweepPoint* point = sweep.fit ? &sweep.fit->points[i] : nullptr;
     const Estimate& measured = sweep.recordings[i].derived.pattern_spacing_m;

@@ -19,6 +19,11 @@ std::string parameters_text(const FitResult& fit, ForceQuantity quantity, const 
 std::string conditions_text(const std::vector<std::string>& conditional_on);
 /// "  critical speed: 20 mm/s [19, 21], lambda there 0.69 [0.67, 0.71]", or why it is not known.
 std::string critical_speed_text(const Estimate& speed_m_per_s, const Estimate& lambda, const std::string& given_unit);
+/// The status of the critical speed with its note: that of the damping ratio, on which it depends.
+struct StatusAndNote {
+  std::string status, note;
+};
+StatusAndNote critical_speed_status(const Analysis& analysis);
 /// "-1.0 %"; "-" where one is not known.
 std::string off_by(const Estimate& predicted, const Estimate& measured);
 std::string warnings_text(const Warnings& warnings);
@@ -33,5 +38,8 @@ struct ShownParameter {
   std::string note;
 };
 std::vector<ShownParameter> shown_parameters(const FitResult& fit);
+
+/// Returns each status that occurs, except `identified`, with its meaning: "weak: an estimate that ...".
+std::vector<std::string> status_meanings(const std::vector<Parameter>& parameters);
 
 }  // namespace slipfit

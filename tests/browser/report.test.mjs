@@ -215,7 +215,7 @@ test("every kind of page prints all of its charts", async () => {
   fs.writeFileSync(shot("print.csv"), `id,file,speed [mm/s],group\n${rows.join("\n")}\n`);
   slipfit("fit", "--joint", shot("print.csv"), "--report", shot("print-sweep.html"), "--quiet");
   assert.deepEqual(await printedCharts(shot("print-sweep.html")),
-    ["sweep-spacing", "sweep-friction", "sweep-cycles", "sweep-traces"]);
+    ["sweep-spacing", "sweep-friction", "sweep-cycles", "sweep-traces", "sweep-traces-2"]);
   fs.rmSync(shot("print-results"), { recursive: true, force: true });
   slipfit("batch", shot("print.csv"), "--out", shot("print-results"), "--report", shot("print-batch.html"), "--quiet");
   assert.deepEqual(await printedCharts(shot("print-batch.html")), [...rows.map(() => "spark"), ...kDistributions]);
@@ -228,7 +228,7 @@ test("every kind of page prints all of its charts", async () => {
   assert.deepEqual(await printedCharts(shot("print-surface.html")), ["profile"]);
 });
 
-const kDistributions = ["frequencies", "spacings", "stiffnesses", "differences", "damping-ratios"];
+const kDistributions = ["frequency_Hz", "pattern_spacing_m", "stiffness_N_per_m", "friction_difference_N", "damping_ratio"];
 
 /** The recording with hum of 50 Hz and a line of another origin. */
 function addHum(file, name) {

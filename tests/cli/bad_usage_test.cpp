@@ -15,7 +15,17 @@ TEST_CASE("wrong usage is refused with exit code 2 and one line before the recor
   const test::TemporaryFolder folder;
   check_refused({"fit", folder.file("run.csv", test::simulated_csv("5"))}, "--speed is missing");
   check_refused({"fit", file, "--speed"}, "--speed");
-  check_refused({"fit", file, "--speed", "1", "--sped", "2"}, "--sped");
+  check_refused({"fit", file, "--speed", "1", "--sped", "2"}, "--sped (did you mean '--speed'?)");
+  check_refused({"fitt", file}, "(did you mean 'fit'?)");
+}
+
+TEST_CASE("a file in place of a command is fitted, and symbols name parameters") {
+  const test::TemporaryFolder folder;
+  const std::string file = folder.file("run.csv", test::simulated_csv("5"));
+  const test::ProgramResult fitted = slipfit({file, "--speed", "10mm/s", "--fix", "zeta=0.05", "--json"});
+  CHECK(fitted.exit_code == 0);
+  CHECK_THAT(fitted.out, Catch::Contains("\"damping_ratio\": 0.05"));
+  CHECK(fitted.out == slipfit({"fit", file, "--speed", "10mm/s", "--fix", "damping_ratio=0.05", "--json"}).out);
 }
 
 TEST_CASE("a speed that cannot be a driving speed is refused") {

@@ -49,10 +49,8 @@ TEST_CASE("forces without a stated zero are conditional, with the condition and 
   CHECK_THAT(text, Contains("static friction F_s, kinetic friction F_k: " + condition) && Contains("--zero"));
   CHECK_THAT(text, Contains("conditional: determined if the assumption in its note holds"));
   const std::string page = test::content_of(folder.path("r.html"));
-  CHECK_THAT(
-      page,
-      Contains(
-          "<span class=\"status conditional\">conditional</span>: determined if the assumption in its note holds"));
+  CHECK_THAT(page, Contains("<span class=\"status conditional\">conditional</span>") &&
+                       Contains("<li>conditional: determined if the assumption in its note holds</li>"));
   CHECK_THAT(page, !Contains("fixed at the stated value"));
   CHECK_THAT(fit_text({"--speed", "10mm/s", "--zero", "0"}), !Contains("reads 0 without force"));
 }
@@ -88,5 +86,5 @@ TEST_CASE("the default text is one screen, and it names the way to all results")
   REQUIRE(run.exit_code == 0);
   CHECK(std::count(run.out.begin(), run.out.end(), '\n') <= 25);
   CHECK_THAT(run.out, Contains("friction drop F_s - F_k") && Contains("conditional (1)") && Contains("--details"));
-  CHECK_THAT(run.out, Contains("spacing of the pattern V/f") && !Contains("Frequency\n"));
+  CHECK_THAT(run.out, Contains("pattern spacing V/f") && !Contains("Frequency\n"));
 }

@@ -193,3 +193,11 @@ TEST_CASE("a displacement that does not run at one speed is not compared") {
   }
   CHECK_FALSE(warns(read_ok(content, {}, at_speed(1.0)), "speed_differs_from_displacement"));
 }
+
+TEST_CASE("a first row with a cell that is no number is no row of units") {
+  slipfit::ReadOptions options;
+  options.force_column = "2";
+  const auto recording =
+      read_ok("time [s],force [N],spare [N]\n0.0,(0.5),1\n0.1,1.5,1\n0.2,0.5,2\n0.3,1.5,1\n", options);
+  CHECK(recording.size() == 3);
+}

@@ -138,7 +138,7 @@ TEST_CASE("what the fit does not know is said in words, with the reason") {
   CHECK_THAT(absent, Contains("The damping ratio is not known: the slip is not resolved."));
   CHECK_THAT(absent, Contains("The position on the map is unknown: needs ζ"));
   CHECK_THAT(absent, Contains("No prediction for other speeds: needs ζ"));
-  CHECK_THAT(page, Contains("<dt>damping ratio</dt><dd>not known</dd>"));
+  CHECK_THAT(page, Contains("<dt>damping ratio ζ</dt><dd>not known</dd>"));
 }
 
 TEST_CASE("peaks and troughs are not drawn against the damping where the sensor blunts them") {

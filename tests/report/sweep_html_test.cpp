@@ -148,16 +148,19 @@ TEST_CASE("recordings of one speed are one point of the fitted line") {
   CHECK(panel.areas.front().outline[2].y == Approx(2.3));
 }
 
-TEST_CASE("the recordings of a large sweep are drawn in pictures that fit on a printed page") {
+TEST_CASE("the recordings of a large sweep are drawn with their residuals in pictures that fit on a printed page") {
   Sweep sweep;
-  for (std::size_t i = sweep.entries.size(); i < 10; ++i) sweep.entries.push_back(sweep.entries.front());
+  for (std::size_t i = sweep.entries.size(); i < 7; ++i) {
+    sweep.entries.push_back(sweep.entries.front());
+    sweep.analysis.recordings.push_back(sweep.analysis.recordings.front());
+  }
   const std::vector<html::Figure> figures =
       html::sweep_traces_figures({sweep.entries, sweep.analysis, sweep.prediction});
   REQUIRE(figures.size() == 2);
   CHECK(figures[0].id == "sweep-traces");
   CHECK(figures[1].id == "sweep-traces-2");
   CHECK(figures[0].chart->panels.size() == 8);
-  CHECK(figures[1].chart->panels.size() == 2);
+  CHECK(figures[1].chart->panels.size() == 6);
 }
 
 TEST_CASE("the page of a sweep without a joint fit states the reason and shows each recording") {

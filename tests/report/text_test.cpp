@@ -140,3 +140,11 @@ TEST_CASE("run-up and ring-down are printed if they are known") {
   CHECK_THAT(text, Contains("Before and after the sliding") && !Contains("ring-down, frequency"));
   CHECK_THAT(line_with(text, "first peak (breakaway)"), Contains("5.250") && Contains("[5.150, 5.350]"));
 }
+
+TEST_CASE("parameters that the data hardly distinguish are listed with their correlation") {
+  auto analysis = test::full_analysis();
+  CHECK_THAT(to_text(test::small_recording(), analysis), !Contains("Correlated parameters"));
+  analysis.fit->correlation->matrix = {{1.0, -0.95}, {-0.95, 1.0}};
+  CHECK_THAT(line_with(to_text(test::small_recording(), analysis), "tangential stiffness k; damping ratio zeta"),
+             Contains("-0.95"));
+}

@@ -105,6 +105,24 @@ std::optional<bool> JsonNode::flag() const {
   return content_.get<bool>();
 }
 
+std::string JsonNode::text_at(const std::string& key) const {
+  const std::optional<JsonNode> found = known(key);
+  return found ? found->text() : std::string();
+}
+
+std::optional<double> JsonNode::number_at(const std::string& key) const {
+  const std::optional<JsonNode> found = known(key);
+  return found ? found->number() : std::nullopt;
+}
+
+Estimate JsonNode::estimate(const std::string& suffix) const {
+  Estimate estimate{number_at("value" + suffix), number_at("se" + suffix), {}, text_at("note")};
+  if (const auto bounds = known("ci95" + suffix)) {
+    estimate.ci95 = Interval{*bounds->element(0).number(), *bounds->element(1).number()};
+  }
+  return estimate;
+}
+
 void JsonNode::fail(const std::string& expected) const {
   std::string shown = content_.dump(-1, ' ', true, json::error_handler_t::replace);
   constexpr std::size_t kLongest = 40;

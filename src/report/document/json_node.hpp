@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/thrown_error.hpp"
+#include "slipfit/core/estimate.hpp"
 
 namespace slipfit::documents {
 
@@ -46,6 +47,11 @@ class JsonNode {
   [[nodiscard]] double positive() const;
   /// Returns the flag, or nothing if the node is null.
   [[nodiscard]] std::optional<bool> flag() const;
+  /// Returns the text or the number of a member that may be absent.
+  [[nodiscard]] std::string text_at(const std::string& key) const;
+  [[nodiscard]] std::optional<double> number_at(const std::string& key) const;
+  /// Returns { value, se, ci95, note }, the keys with this suffix.
+  [[nodiscard]] Estimate estimate(const std::string& suffix = {}) const;
   [[noreturn]] void fail(const std::string& expected) const;
 
  private:

@@ -169,9 +169,12 @@ ModelEstimate with_single_speed(ModelEstimate estimate, const JsonNode& document
   return from_single_speed(estimate, speed->positive(), statuses);
 }
 
+/// The load that all recordings of a sweep state, or that of the one recording.
 std::optional<double> normal_force_N(const JsonNode& document) {
-  const auto load = document.known("model", "normal_force_N");
-  return load ? std::optional(load->positive()) : std::nullopt;
+  for (const char* const section : {"model", "recording"}) {
+    if (const auto load = document.known(section, "normal_force_N")) return load->positive();
+  }
+  return std::nullopt;
 }
 
 /// [speed or null, speed or null]

@@ -10,32 +10,33 @@
 #include "chart/chart.hpp"
 #include "io/message.hpp"
 #include "report/batch_html.hpp"
+#include "report/document/check_document.hpp"
 #include "report/html/assets.hpp"
 #include "report/html/markup.hpp"
 #include "report/html/page.hpp"
 #include "report/html/scaling.hpp"
-#include "report/json_values.hpp"
+#include "report/quantities.hpp"
 
 namespace slipfit {
 namespace html {
 namespace {
 
-/// A quantity of the table, in one unit so that rows compare by eye, and its distribution.
+using documents::JsonNode;
+
+/// A quantity of the table, in one unit so that rows compare by eye, and of the distributions.
 struct BatchColumn {
-  const char* heading = nullptr;
+  std::string_view key;  ///< of the document
   const char* unit = nullptr;
   double per_SI = 1.0;
-  const char* place = nullptr;   ///< in the document
-  const char* suffix = nullptr;  ///< of the keys there
-  const char* id = nullptr;      ///< of the distribution
+
+  [[nodiscard]] std::string heading() const { return label_with_unit(std::string(quantity_with_key(key).words), unit); }
 };
 
-constexpr std::array<BatchColumn, 5> kColumns{
-    {{"frequency", "Hz", 1.0, "/frequency", "_Hz", "frequencies"},
-     {"pattern spacing V/f", "mm", 1e3, "/derived/pattern_spacing_m", "", "spacings"},
-     {"stiffness", "N/m", 1.0, "/parameters/stiffness_N_per_m", "", "stiffnesses"},
-     {"F_s - F_k", "N", 1.0, "/parameters/friction_difference_N", "", "differences"},
-     {"damping ratio", "-", 1.0, "/parameters/damping_ratio", "", "damping-ratios"}}};
+constexpr std::array<BatchColumn, 5> kColumns{{{"frequency_Hz", "Hz", 1.0},
+                                               {"pattern_spacing_m", "mm", 1e3},
+                                               {"stiffness_N_per_m", "N/m", 1.0},
+                                               {"friction_difference_N", "N", 1.0},
+                                               {"damping_ratio", "-", 1.0}}};
 
 constexpr std::size_t kMostRows = 10000;
 constexpr std::size_t kRowsAtOnce = 500;         // laid out; the script shows more of them on demand
@@ -110,11 +111,11 @@ std::string distributions(const std::vector<BatchPageRow>& rows) {
       const std::optional<double>& value = row.quantities[i].estimate.value;
       if (!is_group(row) && value) values.push_back(column.per_SI * *value);
     }
-    const std::string label = label_with_unit(column.heading, column.unit);
+    const std::string label = column.heading();
     const auto panel = histogram(std::move(values), label);
     if (!panel) continue;
-    const std::string picture =
-        picture_of(chart::Chart{"", {}, {*panel}, kDistributionWidth_px}, column.id, "histogram of the " + label);
+    const std::string picture = picture_of(chart::Chart{"", {}, {*panel}, kDistributionWidth_px},
+                                           std::string(column.key), "histogram of the " + label);
     figures += "<figure>" + picture + "</figure>\n";
   }
   if (figures.empty()) return {};
@@ -145,22 +146,36 @@ constexpr std::size_t kSparkColumns = 60;
 constexpr double kSparkWidth = 120.0;
 constexpr double kSparkHeight = 26.0;
 
-std::vector<std::string> codes_in(const Json& warnings) {
+std::vector<std::string> codes_in(const JsonNode& document) {
   std::vector<std::string> codes;
-  for (const Json& warning : warnings) {
-    std::string code = text_in(warning, "code");
+  const std::optional<JsonNode> warnings = document.known("warnings");
+  for (std::size_t i = 0; warnings && i < warnings->array_size(); ++i) {
+    std::string code = warnings->element(i).text_at("code");
     if (std::ranges::find(codes, code) == codes.end()) codes.push_back(std::move(code));
   }
   return codes;
 }
 
 /// Returns a quantity of a document, or nothing if it is absent; a bounded parameter keeps only its interval.
-BatchPageQuantity quantity_in(const Json& document, const BatchColumn& column) {
-  const Json::json_pointer place(column.place);
-  const Json json = document.contains(place) ? document.at(place) : Json();
-  BatchPageQuantity quantity{estimate_in(json, column.suffix), text_in(json, "status")};
+BatchPageQuantity quantity_in(const JsonNode& document, const BatchColumn& column) {
+  const bool is_frequency = column.key == kFrequency.key;  // a section of its own
+  const std::string section(quantity_with_key(column.key).section);
+  const std::optional<JsonNode> node =
+      is_frequency ? document.known(section) : document.known(section, std::string(column.key));
+  if (!node) return {};
+  BatchPageQuantity quantity{node->estimate(is_frequency ? "_Hz" : ""), node->text_at("status")};
   if (quantity.status == "bounded" || quantity.status == "unidentified") quantity.estimate.value.reset();
   return quantity;
+}
+
+BatchPageRow row_from(const JsonNode& document) {
+  BatchPageRow row;
+  row.id = document.member("id").text();
+  row.status = document.member("status").text();
+  if (const auto recording = document.known("recording")) row.speed_m_per_s = recording->number_at("speed_m_per_s");
+  for (std::size_t i = 0; i < kColumns.size(); ++i) row.quantities[i] = quantity_in(document, kColumns[i]);
+  row.warnings = codes_in(document);
+  return row;
 }
 
 /// A relative file as an address: everything but letters, digits and -_./~ as %XX.
@@ -191,7 +206,7 @@ std::string batch_headings() {
   std::string cells = heading("recording", "") + "<th scope=\"col\">trace</th>" + heading("shows", "") +
                       heading("speed [mm/s]", "number");
   for (const BatchColumn& column : kColumns) {
-    cells += heading(label_with_unit(column.heading, column.unit), "number");
+    cells += heading(column.heading(), "number");
   }
   return "<thead><tr>" + cells + heading("warnings", "") + "</tr></thead>\n";
 }
@@ -250,19 +265,7 @@ std::string to_html(const BatchPage& page) {
 }
 
 Result<BatchPageRow> batch_page_row(const std::string& document) {
-  using namespace html;
-  const Json json = Json::parse(document, nullptr, false);
-  BatchPageRow row;
-  row.id = text_in(json, "id");
-  row.status = text_in(json, "status");
-  if (text_in(json, "schema") != "slipfit.fit/1" || row.id.empty() || row.status.empty()) {
-    return Error{"bad_document",
-                 fmt::format("'{}': no fit document, expected one line of results.jsonl", document.substr(0, 60))};
-  }
-  row.speed_m_per_s = number_in(child(json, "recording"), "speed_m_per_s");
-  for (std::size_t i = 0; i < kColumns.size(); ++i) row.quantities[i] = quantity_in(json, kColumns[i]);
-  row.warnings = codes_in(child(json, "warnings"));
-  return row;
+  return documents::with_document<BatchPageRow>(document, "results.jsonl", html::row_from);
 }
 
 std::string sparkline_of(const Recording& recording) {

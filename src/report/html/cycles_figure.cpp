@@ -73,58 +73,16 @@ chart::Line laid_cycles(const Source& source, const Stack& stack, CycleWindow wi
   return line;
 }
 
-namespace {
-
-/// The fit at every sample without the interference, whose phase differs from cycle to cycle.
-std::vector<double> fit_of_slips(const Source& source) {
-  std::vector<double> fit = source.fitted;
-  for (std::size_t i = 0; i < fit.size(); ++i) fit[i] -= source.recording.force()[i] - source.force_of_slips[i];
-  return fit;
-}
-
-Panel panel_of(const Source& source, const Stack& stack, CycleWindow window) {
-  chart::Line measured = laid_cycles(source, stack, window);
-  measured.name = "measured cycles";
-  Span height;
-  for (const Point& point : measured.points) height.add(point.y);
-  const DisplayUnit unit = display_unit("s", window.after_s);
-  chart::Line model{"fit of a typical cycle", Colour::Vermillion, Stroke::Solid,
-                    laid(source, fit_of_slips(source), stack.typical, window), 2.4};
-  const bool has_model = std::ranges::any_of(model.points, [](const Point& p) { return std::isfinite(p.y); });
-  Panel panel;
-  panel.height_px = 240.0;
-  panel.lines.push_back(std::move(measured));
-  if (has_model) panel.lines.push_back(std::move(model));
-  for (chart::Line& line : panel.lines) {
-    for (Point& point : line.points) point.x *= unit.per_SI;
-  }
-  panel.x = {label_with_unit("time since the slip began", unit.unit), -window.before_s * unit.per_SI,
-             window.after_s * unit.per_SI};
-  const char* above = stack.on_kinetic_level ? " above kinetic level" : " above trough";
-  panel.y = height.linear_axis(label_with_unit(force_name_of(source.recording) + above, source.force_unit.unit));
-  return panel;
-}
-
-}  // namespace
-
 Figure cycles_figure(const Source& source) {
   Figure figure{"cycles", "Overlaid cycles"};
-  figure.guide =
-      "All cycles, shifted so that the slip starts at time zero and the kinetic friction is at zero force. A narrow "
-      "bundle means similar cycles; the spread at the top is the scatter of static friction. Top: whole cycles; "
-      "bottom: the slip enlarged, whose shape determines natural frequency and damping.";
+  figure.guide = std::string(kOverlayGuide) +
+                 " A narrow bundle means similar cycles; the spread at the top is the scatter of static friction.";
   if (!shows_cycles(source.analysis)) return figure.without_chart("Steady sliding has no cycles.");
-  constexpr std::size_t kMostCycles = 30;
-  const Stack stack = stack_of(source.analysis, kMostCycles);
-  const CycleStatistics& cycles = source.analysis.cycles;
-  const auto windows = windows_of(cycles, source.recording.sample_interval_s());
-  if (stack.anchors.empty() || windows.empty())
-    return figure.without_chart("There are too few slips to overlay cycles.");
-  chart::Chart chart{"Overlaid cycles", {}, {}};
-  for (const CycleWindow& window : windows) chart.panels.push_back(panel_of(source, stack, window));
-  figure.chart = std::move(chart);
-  figure.label =
-      fmt::format("{} of {} cycles overlaid, with the fit of a typical one", stack.anchors.size(), cycles.count);
+  const OverlaidSet measured{"measured cycles", {{source.recording, source.analysis}}};
+  if (!has_cycles(measured)) return figure.without_chart("There are too few slips to overlay cycles.");
+  figure.chart = overlay_of(figure.title, {measured}, &source);
+  figure.label = fmt::format("{} of {} cycles overlaid, with the fit of a typical one",
+                             stack_of(source.analysis, kMostCyclesOfASet).anchors.size(), source.analysis.cycles.count);
   return figure;
 }
 

@@ -47,6 +47,8 @@ struct Figure {
 };
 
 Figure trace_figure(const Source& source);
+/// Returns the trace, called `name`, with its fit and the residual below it, for pages of several recordings.
+std::vector<chart::Panel> small_trace(const Source& source, const std::string& name);
 Figure spectrum_figure(const Source& source);
 Figure cycles_figure(const Source& source);
 Figure evolution_figure(const Source& source);
@@ -78,7 +80,10 @@ inline constexpr std::string_view kOverlayGuide =
     "against drive displacement, where the slope of the sticks is the stiffness at any speed; bottom, if the samples "
     "resolve them: slips against time, whose shape determines natural frequency and damping.";
 
-/// Cycles of all sets, about as many of each. At least one of the sets has cycles.
-chart::Chart overlay_of(const std::string& title, const std::vector<OverlaidSet>& sets);
+inline constexpr std::size_t kMostCyclesOfASet = 24;
+
+/// Cycles of all sets, about as many of each, and the fit of a typical cycle if the source of the only recording is
+/// given. At least one of the sets has cycles.
+chart::Chart overlay_of(const std::string& title, const std::vector<OverlaidSet>& sets, const Source* fitted = nullptr);
 
 }  // namespace slipfit::html

@@ -17,16 +17,14 @@ constexpr std::array<Replacement, 5> kMarkup{
 constexpr std::array<Replacement, 5> kScript{
     {{"<", "\\u003c"}, {">", "\\u003e"}, {"&", "\\u0026"}, {"\xE2\x80\xA8", "\\u2028"}, {"\xE2\x80\xA9", "\\u2029"}}};
 
-constexpr std::array<Replacement, 10> kSymbols{{{"F_s", "F<sub>s</sub>"},
-                                                {"F_k", "F<sub>k</sub>"},
-                                                {"w_n^2", "ω<sub>n</sub><sup>2</sup>"},
-                                                {"w_n", "ω<sub>n</sub>"},
-                                                {"zeta^2", "ζ<sup>2</sup>"},
-                                                {"zeta", "ζ"},
-                                                {"lambda", "λ"},
-                                                {"alpha", "α"},
-                                                {"--zero", "<code class=\"option\">--zero</code>"},
-                                                {"--normal-force", "<code class=\"option\">--normal-force</code>"}}};
+constexpr std::array<Replacement, 8> kSymbols{{{"F_s", "F<sub>s</sub>"},
+                                               {"F_k", "F<sub>k</sub>"},
+                                               {"w_n^2", "ω<sub>n</sub><sup>2</sup>"},
+                                               {"w_n", "ω<sub>n</sub>"},
+                                               {"zeta^2", "ζ<sup>2</sup>"},
+                                               {"zeta", "ζ"},
+                                               {"lambda", "λ"},
+                                               {"alpha", "α"}}};
 
 /// Runs without any of the first characters are copied at once: pages hold megabytes that need no replacement.
 template <std::size_t count>
@@ -60,7 +58,18 @@ std::string text(std::string_view content) {
 }
 
 std::string formula_text(std::string_view content) {
-  return replaced(text(content), kSymbols);
+  const std::string symbols = replaced(text(content), kSymbols);
+  std::string_view rest(symbols);
+  std::string result;
+  for (std::size_t at = 0; (at = rest.find("--")) != std::string_view::npos;) {
+    const std::size_t end = std::min(rest.find_first_not_of("-abcdefghijklmnopqrstuvwxyz", at), rest.size());
+    const bool is_option = end > at + 2;
+    result += rest.substr(0, at);
+    result += is_option ? fmt::format("<code class=\"option\">{}</code>", rest.substr(at, end - at))
+                        : std::string(rest.substr(at, end - at));
+    rest.remove_prefix(end);
+  }
+  return result += rest;
 }
 
 std::string script_json(std::string_view json) {

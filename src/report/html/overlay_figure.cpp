@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "report/html/scaling.hpp"
 #include "report/html/stack.hpp"
@@ -86,17 +87,27 @@ class OverlayPanel {
         reach_(reach_of(sets, axis)),
         unit_(display_unit(axis.unit, reach_.after)),
         force_(force_unit_of_all(sets)),
-        most_cycles_(std::clamp<std::size_t>(kMostCycles / sets.size(), 2, kMostOfASet)) {}
+        most_cycles_(std::clamp<std::size_t>(kMostCycles / sets.size(), 2, kMostCyclesOfASet)) {}
 
   [[nodiscard]] bool is_empty() const { return reach_.after == 0.0; }
 
-  void add(const OverlaidSet& set) {
-    constexpr double kWidth_px = 1.0;
-    const Look look = look_of(panel_.lines.size());
-    chart::Line line{set.name, look.colour, look.stroke, {}, kWidth_px};
+  void add(const OverlaidSet& set, Look look, double width_px) {
+    chart::Line line{set.name, look.colour, look.stroke, {}, width_px};
     const std::size_t each = std::max<std::size_t>(1, most_cycles_ / std::max<std::size_t>(1, set.recordings.size()));
     for (const OverlaidRecording& one : set.recordings) add_cycles(one, each, line);
     panel_.lines.push_back(std::move(line));
+  }
+
+  /// Adds the fit without the interference, whose phase differs from cycle to cycle.
+  void add_fit(const Source& source) {
+    std::vector<double> fit = source.fitted;
+    for (std::size_t i = 0; i < fit.size(); ++i) fit[i] -= source.recording.force()[i] - source.force_of_slips[i];
+    const double per_second = axis_.per_second(source.recording);
+    chart::Line line{"fit of a typical cycle", Colour::Vermillion, Stroke::Solid,
+                     laid(source, fit, stack_of(source.analysis, 1).typical, window_at(per_second)), 2.4};
+    for (chart::Point& point : line.points) point.x *= unit_.per_SI * per_second;
+    const bool is_known = std::ranges::any_of(line.points, [](const chart::Point& p) { return std::isfinite(p.y); });
+    if (is_known) panel_.lines.push_back(std::move(line));
   }
 
   [[nodiscard]] chart::Panel finished(const std::string& force_name) const {
@@ -111,7 +122,10 @@ class OverlayPanel {
 
  private:
   static constexpr std::size_t kMostCycles = 48;
-  static constexpr std::size_t kMostOfASet = 24;
+
+  [[nodiscard]] CycleWindow window_at(double per_second) const {
+    return {reach_.before / per_second, reach_.after / per_second};
+  }
 
   void add_cycles(const OverlaidRecording& one, std::size_t count, chart::Line& line) {
     if (!window_of(one, axis_)) return;
@@ -121,7 +135,7 @@ class OverlayPanel {
                         force_,        {},           force_without_interference(one.recording, one.analysis)};
     const Stack stack = stack_of(one.analysis, count);
     on_kinetic_level_ = on_kinetic_level_ && stack.on_kinetic_level;
-    const chart::Line cycles = laid_cycles(source, stack, {reach_.before / per_second, reach_.after / per_second});
+    const chart::Line cycles = laid_cycles(source, stack, window_at(per_second));
     for (const chart::Point& point : cycles.points) {
       line.points.push_back({unit_.per_SI * per_second * point.x, point.y});
       height_.add(point.y);
@@ -158,12 +172,15 @@ bool has_cycles(const OverlaidSet& set) {
                              [](const OverlaidRecording& one) { return window_of(one, kAxes.front()).has_value(); });
 }
 
-chart::Chart overlay_of(const std::string& title, const std::vector<OverlaidSet>& sets) {
+chart::Chart overlay_of(const std::string& title, const std::vector<OverlaidSet>& sets, const Source* fitted) {
   chart::Chart chart{title, {}, {}};
   for (const OverlayAxis& axis : kAxes) {
     OverlayPanel panel(axis, sets);
     if (panel.is_empty()) continue;
-    for (const OverlaidSet& set : sets) panel.add(set);
+    for (std::size_t i = 0; i < sets.size(); ++i) {
+      fitted != nullptr ? panel.add(sets[i], {Colour::Grey, Stroke::Solid}, 0.6) : panel.add(sets[i], look_of(i), 1.0);
+    }
+    if (fitted != nullptr) panel.add_fit(*fitted);
     chart.panels.push_back(panel.finished(force_name_of(sets.front().recordings.front().recording)));
   }
   return chart;

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -51,18 +52,25 @@ std::string trace_part(const Figure& figure, const Source& source) {
 }
 
 /// The charts in their order; those that the recording does not allow are listed after them, in a few lines.
-std::string figures_part(const Source& source) {
+std::string figures_part(std::span<const Figure> figures) {
   std::string parts;
   std::string absent;
-  for (const Figure& figure : figures_of(source)) {
-    if (!figure.chart) {
+  for (const Figure& figure : figures) {
+    if (figure.chart) {
+      parts += figure_part(figure);
+    } else {
       absent += "<dt>" + text(figure.title) + "</dt><dd>" + formula_text(figure.absent) + "</dd>\n";
-      continue;
     }
-    parts += figure.id == "trace" ? trace_part(figure, source) : figure_part(figure);
   }
   if (absent.empty()) return parts;
   return parts + section(" id=\"absent\"", "Charts that are not available", fact_list(absent));
+}
+
+/// The models that were compared, and correlated parameters; nothing in steady sliding.
+std::string models_part(const Source& source) {
+  if (!source.analysis.fit || !shows_cycles(source.analysis)) return {};
+  const FitResult& fit = *source.analysis.fit;
+  return block_part(models_block(fit, source.recording.conditions().quantity)) + block_part(correlations_block(fit));
 }
 
 /// Tables that the text report has, too, folded away.
@@ -141,9 +149,12 @@ std::string to_html(const Recording& recording, const Analysis& analysis, const 
   page.headline = html::motion_sentence(source);
   page.summary = "<p class=\"reason\">" + html::capitalised(html::formula_text(analysis.motion_reason)) + "</p>\n" +
                  html::key_numbers(source) + html::warnings_part(analysis.warnings);
-  page.main = html::parameters_part(source) + html::block_part(coefficients_block(analysis.coefficients)) +
-              html::figures_part(source) + html::block_part(quality_block(recording, analysis)) +
-              html::numbers_part(source) + html::repeat_part(source, origin);
+  const std::vector<html::Figure> figures = html::figures_of(source);
+  page.main = html::trace_part(figures.front(), source) + html::parameters_part(source) +
+              html::block_part(coefficients_block(analysis.coefficients)) +
+              html::figures_part(std::span(figures).subspan(1)) + html::models_part(source) +
+              html::block_part(quality_block(recording, analysis)) + html::numbers_part(source) +
+              html::repeat_part(source, origin);
   page.scripts = R"(<script type="application/json" id="trace-data">)" + html::trace_data(source) + "</script>\n" +
                  html::script_element(assets::trace_script());
   return html::page_from(page);

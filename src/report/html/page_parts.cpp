@@ -12,36 +12,42 @@
 #include "report/html/page.hpp"
 #include "report/html/scaling.hpp"
 #include "report/names.hpp"
+#include "report/quantities.hpp"
 #include "report/text_sections.hpp"
 
 namespace slipfit::html {
 namespace {
 
+std::string status_mark(std::string_view status) {
+  return status.empty() ? "" : fmt::format(R"(<small><span class="status {0}">{0}</span></small>)", text(status));
+}
+
 /// A headline number: its value, interval and status. `unknown_text` replaces a value that is not known.
-std::string key_number(const std::string& name, const EstimateRow& row, std::string_view status,
+std::string key_number(std::string_view words, const EstimateRow& row, std::string_view status,
                        const std::string& unknown_text = "not known") {
   const std::string shown = row.value == "-" ? unknown_text : row.value + (row.unit.empty() ? "" : " " + row.unit);
-  const bool has_status = !status.empty() && row.value != "-";
-  const std::string mark =
-      has_status ? fmt::format(R"(<small><span class="status {0}">{0}</span></small>)", text(status)) : std::string();
-  return fmt::format("<div><dt>{}</dt><dd>{}{}{}</dd></div>\n", text(name), text(shown), small(row.interval), mark);
+  const std::string mark = row.value == "-" ? "" : status_mark(status);
+  return fmt::format("<div><dt>{}</dt><dd>{}{}{}</dd></div>\n", formula_text(words), text(shown), small(row.interval),
+                     mark);
 }
 
 /// The headline number of a fitted parameter; a bounded one has an interval without a value.
-std::string key_parameter(const std::string& name, const FitResult& fit, ParameterId id) {
+std::string key_parameter(const FitResult& fit, ParameterId id) {
+  const ParameterInfo& known = info(id);
   const Parameter* const parameter = fit.find(id);
-  if (parameter == nullptr) return key_number(name, estimate_row(Estimate{}, std::string()), {});
+  if (parameter == nullptr) return key_number(known.words, estimate_row(Estimate{}, std::string()), {});
   Estimate estimate = parameter->estimate;
   if (parameter->status == ParameterStatus::Bounded) estimate.value.reset();
-  return key_number(name, estimate_row(estimate, std::string(info(id).unit)), name_of(parameter->status));
+  return key_number(known.words, estimate_row(estimate, std::string(known.unit)), name_of(parameter->status));
 }
 
 /// The critical speed; where it is not known, stick-slip at the speed of the recording is a lower bound.
 std::string key_critical_speed(const Source& source) {
   const Conditions& conditions = source.recording.conditions();
-  const Estimate& critical = source.analysis.derived.critical_speed_m_per_s;
+  const Quantity& quantity = quantity_with_key("critical_speed_m_per_s");
   const bool sticks = source.analysis.motion == MotionClass::StickSlip;
-  return key_number("critical speed", estimate_row(critical, speed_unit(conditions.speed_unit, critical.value)), {},
+  return key_number(quantity.words, estimate_row(quantity, source.analysis.derived.critical_speed_m_per_s, conditions),
+                    critical_speed_status(source.analysis).status,
                     sticks ? "above " + speed_text(conditions) : "not known");
 }
 
@@ -57,10 +63,8 @@ std::vector<std::string> each(const std::vector<std::string>& sentences, std::st
 std::string quantity_cell(const Estimate& SI, double per_SI, const std::string& status) {
   const EstimateRow shown = estimate_row(SI, DisplayUnit{per_SI, ""});
   const std::string value = SI.value ? fmt::format("{}", *SI.value) : std::string();
-  const std::string mark =
-      status.empty() ? "" : fmt::format(R"(<small><span class="status {0}">{0}</span></small>)", text(status));
   return fmt::format(R"(<td class="number" data-value="{}">{}{}{}</td>)", value, text(shown.value),
-                     small(shown.interval), mark);
+                     small(shown.interval), status_mark(status));
 }
 
 std::string capitalised(std::string sentence) {
@@ -99,12 +103,15 @@ std::string motion_sentence(const Source& source) {
 std::string key_numbers(const Source& source) {
   const Analysis& analysis = source.analysis;
   if (analysis.motion == MotionClass::SteadySliding) return {};
+  const Conditions& conditions = source.recording.conditions();
+  const auto measured = [&conditions](const Quantity& quantity, const Estimate& estimate) {
+    return key_number(quantity.words, estimate_row(quantity, estimate, conditions), "measured");
+  };
   std::string numbers =
-      key_number("frequency", estimate_row(analysis.frequency.quoted, std::string("Hz")), "measured") +
-      key_number("pattern spacing V/f", estimate_row(analysis.derived.pattern_spacing_m, std::string("m")), "measured");
+      measured(kFrequency, analysis.frequency.quoted) + measured(kMeasured.front(), analysis.derived.pattern_spacing_m);
   if (analysis.fit) {
-    numbers += key_parameter("stiffness", *analysis.fit, ParameterId::Stiffness) +
-               key_parameter("damping ratio", *analysis.fit, ParameterId::DampingRatio) + key_critical_speed(source);
+    numbers += key_parameter(*analysis.fit, ParameterId::Stiffness) +
+               key_parameter(*analysis.fit, ParameterId::DampingRatio) + key_critical_speed(source);
   }
   return "<dl class=\"keys\">\n" + numbers + "</dl>\n<p class=\"guide\">In brackets: 95 % intervals.</p>\n";
 }
@@ -131,10 +138,10 @@ std::string parameter_table(const FitResult& fit) {
         parameter.note.empty() ? "" : "<span class=\"note\">" + formula_text(parameter.note) + "</span>";
     rows.push_back({formula_text(parameter.words), text(parameter.numbers.value), text(parameter.numbers.unit),
                     text(parameter.numbers.interval),
-                    fmt::format("<span class=\"status {0}\">{0}</span>: {1}{2}", name_of(parameter.status),
-                                words_for_status(parameter.status), note)});
+                    fmt::format("<span class=\"status {0}\">{0}</span>{1}", name_of(parameter.status), note)});
   }
-  return table(" class=\"parameters\"", {"parameter", "#value", "~unit", "~95 % interval", "status"}, rows);
+  return table(" class=\"parameters\"", {"parameter", "#value", "~unit", "~95 % interval", "status"}, rows) +
+         list(each(status_meanings(fit.parameters), text));
 }
 
 std::string block_content(const Block& block) {
@@ -166,8 +173,7 @@ std::string parameters_part(const Source& source) {
   }
   const FitResult& fit = *analysis.fit;
   const bool is_doubtful = analysis.motion == MotionClass::Undetermined;
-  return part((is_doubtful ? "<p>Unreliable: the motion may not be stick-slip.</p>\n" : "") + parameter_table(fit)) +
-         block_part(models_block(fit, source.recording.conditions().quantity));
+  return part((is_doubtful ? "<p>Unreliable: the motion may not be stick-slip.</p>\n" : "") + parameter_table(fit));
 }
 
 std::string repeat_part(const Source& source, const ReportOrigin& origin) {

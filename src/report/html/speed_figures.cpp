@@ -15,8 +15,7 @@ namespace {
 using chart::Colour, chart::Panel, chart::Point, chart::Shape, chart::Stroke;
 
 constexpr double kGap = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t kSweepColumns = 610;
-constexpr std::size_t kTracesOfPicture = 8;  // no more fit on a printed page
+constexpr std::size_t kTracesOfPicture = 4;  // no more fit on a printed page
 constexpr double kFarthestBound = 5.0;       // factor; what reaches further is cut at the axis
 
 /// One quantity of the recordings over speed, in SI.
@@ -302,38 +301,24 @@ Figure sweep_friction_figure(const SweepSource& source) {
   return figure;
 }
 
-namespace {
-
-Panel trace_panel(const SweepEntry& entry) {
-  const Recording& recording = entry.recording;
-  const DisplayUnit unit = force_unit_of(recording);
-  std::vector<Point> points = envelope(recording.time_s(), recording.force(), kSweepColumns);
-  Span heights;
-  for (Point& point : points) {
-    point.y *= unit.per_SI;
-    heights.add(point.y);
-  }
-  Panel panel;
-  panel.height_px = 80.0;
-  panel.x = {"time [s]", recording.time_s().front(), recording.time_s().back()};
-  panel.y = heights.linear_axis(label_with_unit("force", unit.unit));
-  panel.lines.push_back({fmt::format("{}, {}", entry.id, speed_text(recording.conditions())), Colour::Grey,
-                         Stroke::Solid, std::move(points), 1.0});
-  return panel;
-}
-
-}  // namespace
-
 std::vector<Figure> sweep_traces_figures(const SweepSource& source) {
   std::vector<Figure> figures;
   for (std::size_t first = 0; first < source.entries.size(); first += kTracesOfPicture) {
     const auto entries = source.entries.subspan(first, std::min(kTracesOfPicture, source.entries.size() - first));
     Figure figure =
         first == 0
-            ? Figure{"sweep-traces", "The recordings", "Each recording against its own time, with its own scale."}
+            ? Figure{"sweep-traces", "The recordings",
+                     "Each recording against its own time, with its own scale, its own fit and, below it, the residual "
+                     "of that fit. The joint fit shares its parameters."}
             : Figure{fmt::format("sweep-traces-{}", figures.size() + 1), "The recordings, continued"};
     chart::Chart chart{"Recordings of the sweep", {}, {}};
-    for (const SweepEntry& entry : entries) chart.panels.push_back(trace_panel(entry));
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+      static const Background kNone;
+      const Recording& recording = entries[i].recording;
+      const std::string name = fmt::format("{}, {}", entries[i].id, speed_text(recording.conditions()));
+      const Source one = source_of(recording, source.sweep.recordings[first + i], kNone);
+      for (Panel& panel : small_trace(one, name)) chart.panels.push_back(std::move(panel));
+    }
     figure.label = fmt::format("force over time of {} recordings", entries.size());
     figure.chart = std::move(chart);
     figures.push_back(std::move(figure));

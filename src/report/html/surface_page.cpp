@@ -40,7 +40,7 @@ chart::Panel profile_panel(const Profile& profile, const Surface& surface, const
   for (const double height : heights) span.add(height);
   chart::Panel panel;
   panel.lines.push_back(std::move(line));
-  chart::Markers marks{fmt::format("{} ridges", surface.ridges), chart::Colour::Vermillion, chart::Shape::Triangle, {}};
+  chart::Markers marks{"located ridges", chart::Colour::Vermillion, chart::Shape::Triangle, {}};
   const double room = std::max(1e-300, span.range());
   for (const double place : surface.ridge_places_m) {
     if (place < begin_m || place > end_m) continue;

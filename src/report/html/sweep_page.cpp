@@ -12,6 +12,7 @@
 #include "report/html/scaling.hpp"
 #include "report/html/sweep_figures.hpp"
 #include "report/names.hpp"
+#include "report/quantities.hpp"
 #include "report/text_sections.hpp"
 #include "slipfit/report/sweep_html.hpp"
 
@@ -35,7 +36,8 @@ std::string sweep_sentence(const SweepSource& source) {
 std::string parameters_of(const SweepAnalysis& sweep) {
   return section(" id=\"parameters\"", "Parameters of all recordings",
                  sweep.fit ? parameter_table(sweep.fit->result)
-                           : "<p class=\"absent\">" + formula_text(sweep.fit_reason) + "</p>\n");
+                           : "<p class=\"absent\">" + formula_text(sweep.fit_reason) + "</p>\n") +
+         (sweep.fit ? block_part(correlations_block(sweep.fit->result)) : std::string());
 }
 
 /// One unit a column: rows compare by eye.
@@ -95,7 +97,7 @@ std::string recordings_of(const SweepSource& source) {
   const SweepUnits units = units_of(source);
   std::vector<std::string> columns{"recording", label_with_unit("#speed", units.speed.unit), "shows"};
   if (has_surface_spacing(source)) columns.push_back(label_with_unit("#spacing on the surface", units.spacing.unit));
-  columns.insert(columns.end(), {label_with_unit("#spacing measured, V/f", units.spacing.unit),
+  columns.insert(columns.end(), {label_with_unit("#" + std::string(kMeasured.front().words), units.spacing.unit),
                                  label_with_unit("#predicted without it", units.spacing.unit), "#off by"});
   if (source.sweep.fit && source.sweep.fit->result.estimate) {
     columns.insert(columns.end(), {"#k without it", "#F_s \u2212 F_k without it"});

@@ -111,6 +111,22 @@ Panel residual_panel(const Piece& piece, const std::string& unit) {
 
 }  // namespace
 
+std::vector<Panel> small_trace(const Source& source, const std::string& name) {
+  const Piece piece = cut(source, {0, source.recording.size()});
+  std::vector<Panel> panels{force_panel(piece, label_with_unit("force", source.force_unit.unit), 1.0)};
+  Panel& force = panels.front();
+  force.height_px = 80.0;
+  force.lines.front().name = name;
+  if (!has_fitted_curve(source.analysis)) {
+    force.lines.pop_back();
+    return panels;
+  }
+  force.x.label.clear();  // it is below the residual
+  panels.push_back(residual_panel(piece, source.force_unit.unit));
+  panels.back().height_px = 75.0;
+  return panels;
+}
+
 Figure trace_figure(const Source& source) {
   const Recording& recording = source.recording;
   const std::string unit = source.force_unit.unit;
