@@ -4,6 +4,7 @@
 #include <map>
 #include <random>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -18,7 +19,7 @@ namespace {
 
 const std::vector<double> kSpeeds{0.005, 0.01, 0.02, 0.04};
 
-const Parameter& parameter(const SweepAnalysis& sweep, const std::string& name) {
+const Parameter& parameter(const SweepAnalysis& sweep, std::string_view name) {
   for (const Parameter& p : sweep.fit->result.parameters) {
     if (p.name() == name) return p;
   }
