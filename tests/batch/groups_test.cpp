@@ -159,7 +159,9 @@ TEST_CASE("a batch that is stopped finishes running fits and can be continued") 
   const auto stopped = slipfit::run_batch(options, hooks);
   REQUIRE(stopped.ok());
   CHECK(stopped.value().end == slipfit::BatchEnd::Stopped);
-  CHECK(ids_in(scene.path("out")).size() >= 9);
+  const auto events = lines_of(test::content_of(scene.path("out/journal")));
+  CHECK(std::count_if(events.begin(), events.end(),
+                      [](const std::string& event) { return event.find(" fit ") == event.find(' '); }) >= 9);
   options.resume = true;
   options.fit_group = list_members;
   run_ok(options);
