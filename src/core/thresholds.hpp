@@ -109,9 +109,6 @@ inline constexpr double kHiding = 6.0;
 /// Relative standard error of a count that guides the search of the spectrum. [1; convention]
 inline constexpr double kSureCount = 0.01;
 
-/// Standard errors between the spectrum's frequency and the fit's, above which the fit is believed. [1; convention]
-inline constexpr double kFarApart = 4.0;
-
 /// Relative distance of frequencies that are the same. [1; convention]
 inline constexpr double kAlike = 0.05;
 
