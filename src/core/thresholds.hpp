@@ -152,9 +152,6 @@ inline constexpr double kDistinctShare = 0.05;
 /// Largest distance of a rounded value from its lattice over the step. [1; derived: what a file's decimals may move it]
 inline constexpr double kOffLattice = 0.1;
 
-/// Fewest samples at a level where the sensor saturates. [count; convention]
-inline constexpr std::size_t kFewestClipped = 8;
-
 /// Samples at such a level over those at the next value. [1; convention]
 inline constexpr double kClippedPile = 6.0;
 
