@@ -209,10 +209,6 @@ inline constexpr double kNotableChange = 0.2;
 /// Mean length of a run of equal values, from which on the logger is quicker than the converter. [samples; convention]
 inline constexpr double kShortestRepeat = 1.5;
 
-/// Largest variance of the length of such runs. [samples^2; derived: 1/4 at most between two neighbouring lengths, 3/4
-/// and more for values that repeat by chance; two equal readings in twenty are allowed for]
-inline constexpr double kEvenRepeats = 0.45;
-
 /// Usual change from run to run over the smallest one, below which values repeat because they are rounded.
 /// [1; convention]
 inline constexpr double kRoundingSteps = 3.0;
