@@ -196,9 +196,6 @@ inline constexpr double kFarOverTypical = 8.0;
 /// Largest share of intervals that are called broken. [1; convention]
 inline constexpr double kFewBroken = 0.25;
 
-/// Fewest intervals in which a change is looked for. [count; convention]
-inline constexpr std::size_t kFewestForChange = 10;
-
 /// Standard errors between two parts of a recording that differ. [1; derived: the best of many splits reaches 3 to 4 by
 /// chance]
 inline constexpr double kBeyondScatter = 6.0;
