@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <string_view>
 #include <vector>
 
 #include "slipfit/sweep.hpp"
@@ -29,7 +30,7 @@ PlanBasis basis_of(const std::vector<SweepEntry>& entries, const SweepAnalysis& 
   return basis;
 }
 
-const ParameterLimit& limit_of(const Plan& plan, const std::string& name) {
+const ParameterLimit& limit_of(const Plan& plan, std::string_view name) {
   const auto found =
       std::find_if(plan.limits.begin(), plan.limits.end(), [&](const ParameterLimit& l) { return l.name == name; });
   REQUIRE(found != plan.limits.end());
