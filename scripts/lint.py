@@ -25,7 +25,7 @@ ALLOWED = {
     "io": {"core"},
     "signal": {"core"},
     "model": {"core"},
-    "surface": {"core", "io", "signal", "model"},
+    "surface": {"core", "io", "signal"},
     "fit": {"core", "signal", "model"},
     "predict": {"core", "model", "fit"},
     "chart": set(),
