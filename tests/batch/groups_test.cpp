@@ -131,7 +131,7 @@ TEST_CASE("an exception does not end a batch") {
   CHECK_THAT(files_in(scene.path("out")).failures, Catch::Contains("group:g0,internal_error,"));
 }
 
-TEST_CASE("a fit that takes longer than the timeout has failed; a group has the time of its members") {
+TEST_CASE("a fit that takes longer than the timeout has failed, and a group has the time of its members") {
   const BatchScene scene(6);  // g0: 0 3, g1: 1 4
   BatchOptions options = options_for(scene, "out");
   options.timeout_s = 1.0;

@@ -219,7 +219,7 @@ TEST_CASE("sweep: one speed cannot tell alpha, and says so") {
   CHECK_THAT(parameter(sweep, "alpha_s_per_m").estimate.note, Catch::Contains("too little to determine alpha"));
 }
 
-TEST_CASE("sweep: recordings with zeros of their own share no level; damping is then conditional") {
+TEST_CASE("sweep: recordings with zeros of their own share no level, and damping is then conditional") {
   SweepScene scene;
   scene.offset_N = 0.3;
   const SweepAnalysis sweep = analyze_sweep(test::record_sweep(scene, kSpeeds));
