@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# web_layer.sh [LAYER...]: checks layers of src (core, io, signal, analysis, surface) against the C++ library of the browser version, libc++ 13,
+# web_layer.sh [LAYER...]: checks layers of src (core, io, signal, analysis, surface by default) against the C++ library of the browser version, libc++ 13,
 # which lacks much that g++ 12 has: by emscripten's compiler where it is installed, else by clang or g++ with the headers of
 # Debian's libc++-13-dev. That package is unpacked into build/web-layer, not installed, because it conflicts with what libceres-dev
 # needs. Nothing is built, and no library of scripts/web_libraries.sh is needed: half a minute. Skips, saying so, where neither is.
@@ -39,6 +39,12 @@ mkdir -p "$work/include" "$work/core"
 for header in boost ceres fast_float fftw3.h fmt libfccp xxhash.h zlib.h zconf.h; do  # by links: /usr/include is of another C library
   ln -s "/usr/include/$header" "$work/include/$header"
 done
+mkdir "$work/include/glog"  # which knows no such platform; headers of ceres include it
+{
+  echo '#pragma once'
+  echo 'struct NoLog { template <class T> const NoLog& operator<<(const T&) const { return *this; } };'
+  printf '#define %s(...) NoLog()\n' {,D}CHECK{,_EQ,_NE,_GE,_GT,_LE,_LT} {,V}LOG
+} >"$work/include/glog/logging.h"
 [ ! -d /usr/include/hdf5/serial ] || ln -s /usr/include/hdf5/serial "$work/include/hdf5"
 cmake -DINPUT=docs/formats.md -DOUTPUT="$work/core/remedies.hpp" -P cmake/remedies.cmake
 

@@ -88,7 +88,7 @@ class BatchResult:
             yield json.loads(line)
 
     def _lines(self) -> Iterator[str]:
-        with open(self._path("results.jsonl"), encoding="utf-8") as stream:
+        with open(self._written("results.jsonl"), encoding="utf-8") as stream:
             yield from stream
 
     def fits(self) -> Iterator[Fit]:
@@ -104,11 +104,13 @@ class BatchResult:
     def _index(self) -> Dict[str, Tuple[int, int]]:
         """Where the line of each id stands: (begin, length) in bytes."""
         if self._places is None:
-            self._places, begin = {}, 0
-            with open(self._path("results.jsonl"), "rb") as stream:
+            places: Dict[str, Tuple[int, int]] = {}
+            begin = 0
+            with open(self._written("results.jsonl"), "rb") as stream:
                 for line in stream:
-                    self._places[str(json.loads(line)["id"])] = (begin, len(line))
+                    places[str(json.loads(line)["id"])] = (begin, len(line))
                     begin += len(line)
+            self._places = places
         return self._places
 
     def __getitem__(self, id: str) -> Fit:
@@ -116,7 +118,7 @@ class BatchResult:
         if id not in places:
             raise KeyError(f"{self.folder} has no result {id!r}: see .ids and .failures")
         begin, length = places[id]
-        with open(self._path("results.jsonl"), "rb") as stream:
+        with open(self._written("results.jsonl"), "rb") as stream:
             stream.seek(begin)
             return result_of(stream.read(length).decode("utf-8"), self._path("results.jsonl"))
 
@@ -159,12 +161,16 @@ class BatchResult:
     def _path(self, name: str) -> str:
         return os.path.join(self.folder, name)
 
+    def _written(self, name: str) -> str:
+        """The path of a file that a batch writes at its end."""
+        if not os.path.exists(self._path(name)):
+            raise Error("not_finished", f"{self.folder}: has no {name}, which a batch writes at its end; finish it with resume=True")
+        return self._path(name)
+
     def _table(self, name: str, **reading: Any) -> "pd.DataFrame":
         import pandas
 
-        if not os.path.exists(self._path(name)):
-            raise Error("not_finished", f"{self.folder}: has no {name}, which a batch writes at its end; finish it with resume=True")
-        return pandas.read_csv(self._path(name), float_precision="round_trip", **reading)
+        return pandas.read_csv(self._written(name), float_precision="round_trip", **reading)
 
     def __repr__(self) -> str:
         counts = self.counts

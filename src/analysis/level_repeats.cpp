@@ -39,7 +39,7 @@ Eigen::VectorXd without_trend(const Series& series) {
 }
 
 Sine sine_in(const Series& series, double waves) {
-  const Eigen::MatrixXd columns = signal::line_and_harmonics(series.place, waves, 1);
+  const Eigen::MatrixXd columns = signal::line_and_harmonics(series.place, {.frequency_Hz = waves});
   const Eigen::VectorXd fitted = columns.colPivHouseholderQr().solve(series.value);
   const double all = without_trend(series).squaredNorm();
   const double rest = (series.value - columns * fitted).squaredNorm();

@@ -138,7 +138,7 @@ bool is_sharper(const SpectralFrequency& spectral, const Estimate& fitted) {
   const double difference_Hz = std::abs(*spectral.value_Hz - *fitted.value);
   // Alike: an interval that scatter has made wide holds lines that are not the slips'.
   return *spectral.regular_standard_error_Hz < *fitted.standard_error &&
-         difference_Hz < std::min(thresholds::kFarApart * *fitted.standard_error, thresholds::kAlike * *fitted.value);
+         difference_Hz < thresholds::kAlike * *fitted.value;
 }
 
 /// Peak to peak of the sine at this frequency.

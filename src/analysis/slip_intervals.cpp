@@ -140,7 +140,6 @@ std::optional<std::string> broken_rhythm(const Recording& recording, const Segme
 
 std::optional<std::string> change_on_the_way(const Segmentation& segmentation) {
   const std::vector<DetectedSlip>& slips = segmentation.slips;
-  if (slips.size() < thresholds::kFewestForChange + 2) return std::nullopt;
   std::vector<double> seconds, drops;
   for (std::size_t i = 2; i < slips.size(); ++i) {
     seconds.push_back(slips[i].middle_s - slips[i - 1].middle_s);

@@ -6,6 +6,7 @@
 #include <system_error>
 #include <utility>
 
+#include "batch/final_files.hpp"
 #include "batch/folder.hpp"
 #include "batch/pages.hpp"
 #include "batch/result_log.hpp"
@@ -29,25 +30,26 @@ std::optional<RunRecord> continued_record(const BatchOptions& options, const Run
   return before && !difference(*before, now) ? std::move(before) : std::nullopt;
 }
 
-/// Finds what the folder holds already, and writes run.json. The order is safe against a kill at any moment: run.json
-/// is there before any other file, and lines that were found are in the journal before run.json says that the batch is
-/// not finished.
-FoundResults prepare_folder(const BatchOptions& options, const BatchHooks& hooks, const WorkList& list,
-                            const RunRecord& now, const std::optional<RunRecord>& before) {
-  if (before && !options.resume && has_results(options.folder)) {
+/// Begins the journal and run.json, in an order that is safe against a kill at any moment: a finished batch stays one
+/// until its results are in the journal, and run.json is there before any other file.
+std::size_t prepare_folder(const BatchOptions& options, const WorkList& list, const RunRecord& now,
+                           const std::optional<RunRecord>& before) {
+  if (before && !options.resume && has_results(options.folder, *before)) {
     throw file_error("results_present", options.folder,
                      "contains results of this batch; continue with --resume, or choose another folder with --out");
   }
-  FoundResults found = before ? find_results(options.folder, *before, list) : FoundResults(list.is_mine.size());
-  if (found.damaged > 0 && hooks.tell) {
-    hooks.tell(fmt::format("{} results in results.jsonl were changed or damaged and are fitted again", found.damaged));
-  }
   if (!before) write_record(options.folder, now);
-  write_journal(options.folder, found);
+  const bool continues_journal = before && !before->finished;
+  const std::size_t damaged = continues_journal ? 0 : begin_journal(options.folder, before ? &*before : nullptr, list);
   write_record(options.folder, now);
   std::error_code ignored;
   std::filesystem::remove(options.folder / kSummary, ignored);  // of an earlier run; written again at the end
-  return found;
+  return damaged;
+}
+
+void tell_damaged(const BatchHooks& hooks, std::size_t count, const char* file) {
+  if (count == 0 || !hooks.tell) return;
+  hooks.tell(fmt::format("{} results in {} were changed or damaged and are fitted again", count, file));
 }
 
 void report_other_processor(const BatchHooks& hooks, const RunRecord& before, const RunRecord& now) {
@@ -94,10 +96,11 @@ BatchOutcome run_or_throw(const BatchOptions& options, const BatchHooks& hooks) 
   const std::optional<RunRecord> before = continued_record(options, record);
   if (before) report_other_processor(hooks, *before, record);
   if (before) record.processor = processors_of(*before, record);
-  FoundResults found = prepare_folder(options, hooks, list, record, before);
+  tell_damaged(hooks, prepare_folder(options, list, record, before), kResults);
   tell_ignored_columns(options, hooks);
-  ResultLog log(options.folder, std::move(found));
+  ResultLog log(options.folder, list.is_mine.size());
   log.throw_error();
+  tell_damaged(hooks, log.damaged(), kJournal);
   Run run(options, hooks, list, log);
   run.fit_all();
   close(options, list, run, log, record);

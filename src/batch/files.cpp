@@ -38,11 +38,11 @@ std::string random_letters() {
   return letters;
 }
 
-/// A file next to `file` that did not exist, opened for writing. It has the mode of `file`, or, where there is none,
+/// A file next to `file` that did not exist, opened for writing. It has the mode of `mode_of`, or, where there is none,
 /// that which the umask leaves. Returns -1 with errno where it cannot be made.
-int open_temporary(const fs::path& file, std::string& name) {
+int open_temporary(const fs::path& file, const fs::path& mode_of, std::string& name) {
   struct stat status {};
-  const bool exists = ::lstat(file.c_str(), &status) == 0 && S_ISREG(status.st_mode);
+  const bool exists = ::lstat(mode_of.c_str(), &status) == 0 && S_ISREG(status.st_mode);
   int descriptor = -1;
   do {
     name = (file.parent_path() / fmt::format(".{}.{}{}", file.filename().string(), random_letters(), kNew)).string();
@@ -107,8 +107,10 @@ void remove_leftovers(const fs::path& folder, const std::function<bool(std::stri
   for (const fs::path& leftover : leftovers) fs::remove(leftover, error);
 }
 
-LineFile::LineFile(const fs::path& file, std::uint64_t kept)
-    : file_(file, ::open(file.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC | O_NOFOLLOW, kMode)), size_(kept) {
+LineFile::LineFile(const fs::path& file)
+    : file_(file, ::open(file.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC | O_NOFOLLOW, kMode)) {}
+
+LineFile::LineFile(const fs::path& file, std::uint64_t kept) : LineFile(file) {
   struct stat status {};
   if (!file_.check(::fstat(file_.handle.get(), &status) == 0)) return;
   const bool has_more = S_ISREG(status.st_mode) && static_cast<std::uint64_t>(status.st_size) > kept;
@@ -118,7 +120,9 @@ LineFile::LineFile(const fs::path& file, std::uint64_t kept)
 
 std::uint64_t LineFile::append(std::string_view line) {
   file_.write(fmt::format("{}\n", line));
-  return std::exchange(size_, size_ + line.size() + 1);
+  const off_t end = ::lseek(file_.handle.get(), 0, SEEK_CUR);  // of what this descriptor wrote, whoever wrote since
+  if (!file_.check(end >= 0)) return 0;
+  return static_cast<std::uint64_t>(end) - line.size() - 1;
 }
 
 Result<std::string> LineFile::line_at(std::uint64_t place) const {
@@ -135,7 +139,8 @@ Result<std::string> LineFile::line_at(std::uint64_t place) const {
   }
 }
 
-Replacement::Replacement(const fs::path& file) : file_(file, open_temporary(file, temporary_)) {}
+Replacement::Replacement(const fs::path& file, const fs::path& mode_of)
+    : file_(file, open_temporary(file, mode_of, temporary_)) {}
 
 Replacement::~Replacement() {
   if (file_.handle) (void)::unlink(temporary_.c_str());

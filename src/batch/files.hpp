@@ -23,7 +23,7 @@ constexpr const char* kResults = "results.jsonl";
 constexpr const char* kSummary = "summary.csv";
 constexpr const char* kFailures = "failures.csv";
 constexpr const char* kRunFile = "run.json";
-constexpr const char* kJournal = "journal";  // until the batch is finished
+constexpr const char* kJournal = "journal";  // while the batch is not finished, and instead of the final files
 constexpr std::array<std::string_view, 5> kFolderFiles{kResults, kSummary, kFailures, kRunFile, kJournal};
 constexpr const char* kLock = "lock";
 
@@ -53,31 +53,35 @@ struct CheckedFile {
 /// have replaced.
 void remove_leftovers(const std::filesystem::path& folder, const std::function<bool(std::string_view name)>& is_ours);
 
-/// A file of whole lines that grows at its end.
+/// A file of whole lines that grows at its end, also by other processes that have it open for themselves.
 class LineFile {
  public:
   /// Keeps the first `kept` bytes of what is there and cuts off the rest.
   LineFile(const std::filesystem::path& file, std::uint64_t kept);
+  /// Opens the file once more, as another process should: what it appends does not move the place of this one.
+  [[nodiscard]] LineFile opened_again() const { return LineFile(file_.name); }
 
   /// The line must hold no line end; one is added. Returns the place where it begins.
   std::uint64_t append(std::string_view line);
   /// Waits until the disk has everything that was appended before.
   void sync() { file_.sync(); }
-  [[nodiscard]] bool has_failed() const { return file_.error.has_value(); }
   void throw_error() const { file_.throw_error(); }
-  /// The line that begins at `place`, without its end. Errors: not_readable.
+  /// The text from `place` to the end of its line. Errors: not_readable.
   [[nodiscard]] Result<std::string> line_at(std::uint64_t place) const;
 
  private:
+  explicit LineFile(const std::filesystem::path& file);
+
   CheckedFile file_;
-  std::uint64_t size_;
 };
 
 /// A new file next to `file` that replaces it when everything is written: readers see the old content or the new.
 /// Unless `finish` succeeds, it is removed.
 class Replacement {
  public:
-  explicit Replacement(const std::filesystem::path& file);
+  explicit Replacement(const std::filesystem::path& file) : Replacement(file, file) {}
+  /// The new file has the mode of the regular file `mode_of`; where there is none, that which the umask leaves.
+  Replacement(const std::filesystem::path& file, const std::filesystem::path& mode_of);
   ~Replacement();
   Replacement(const Replacement&) = delete;
   Replacement& operator=(const Replacement&) = delete;

@@ -10,6 +10,7 @@
 #include <fstream>
 #include <system_error>
 
+#include "batch/result_log.hpp"
 #include "slipfit/core/printable.hpp"
 
 namespace slipfit::batch {
@@ -103,7 +104,8 @@ FolderLock::~FolderLock() {
   if (handle_) (void)::unlink(file_.c_str());
 }
 
-bool has_results(const fs::path& folder) {
+bool has_results(const fs::path& folder, const RunRecord& record) {
+  if (!record.finished) return journal_has_results(folder);
   std::ifstream stream(folder / kResults, std::ios::binary);
   std::string line;
   return std::getline(stream, line) && !stream.eof();
@@ -124,7 +126,7 @@ std::optional<RunRecord> check_folder(const fs::path& folder, const RunRecord& n
   }
   remove_leftovers(folder,
                    [](std::string_view name) { return std::ranges::find(kFolderFiles, name) != kFolderFiles.end(); });
-  const auto differs = before && has_results(folder) ? difference(*before, now) : std::nullopt;
+  const auto differs = before && has_results(folder, *before) ? difference(*before, now) : std::nullopt;
   if (!differs) return before;
   throw file_error(
       "folder_of_another_batch", folder,

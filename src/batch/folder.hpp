@@ -33,7 +33,7 @@ class FolderLock {
 /// batch wrote; cannot_write where they are symbolic links, which are not followed.
 std::optional<RunRecord> check_folder(const std::filesystem::path& folder, const RunRecord& now);
 
-/// Returns true if results.jsonl contains a complete line.
-bool has_results(const std::filesystem::path& folder);
+/// Returns true if the folder holds a result of the batch of this record.
+bool has_results(const std::filesystem::path& folder, const RunRecord& record);
 
 }  // namespace slipfit::batch

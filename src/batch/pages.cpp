@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "batch/files.hpp"
+#include "batch/final_files.hpp"
 #include "batch/tables.hpp"
 #include "report/batch_html.hpp"
 

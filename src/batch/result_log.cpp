@@ -1,19 +1,67 @@
 #include "batch/result_log.hpp"
 
 #include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
+#include <optional>
 #include <system_error>
-#include <utility>
 
 #include "batch/tables.hpp"
-#include "core/parallel.hpp"
 #include "report/document/json_node.hpp"
-#include "slipfit/core/printable.hpp"
 
 namespace slipfit::batch {
 namespace {
+
+constexpr std::string_view kBegun = "begin";
+constexpr std::string_view kFitted = "fit";
+constexpr std::string_view kFailed = "error";
+constexpr std::string_view kEnded = "end";
+
+std::string journal_line(std::string_view word, std::size_t slot, std::string_view content = {}) {
+  const std::string event = fmt::format("{} {}{}{}", word, slot, content.empty() ? "" : " ", content);
+  return fmt::format("{} {}", digest_of(event).text(), event);
+}
+
+struct Event {
+  std::string_view word;
+  std::size_t slot = 0;
+  std::string_view content;
+};
+
+/// Cuts a text at its first blank and returns what precedes it; `text` keeps the rest.
+std::string_view next_word(std::string_view& text) {
+  const std::size_t end = std::min(text.find(' '), text.size());
+  const std::string_view word = text.substr(0, end);
+  text.remove_prefix(std::min(end + 1, text.size()));
+  return word;
+}
+
+/// Returns the event of a line; empty if the line is not as it was written.
+std::optional<Event> event_in(std::string_view line) {
+  const std::string_view digest = next_word(line);
+  if (digest != digest_of(line).text()) return std::nullopt;
+  Event event;
+  event.word = next_word(line);
+  const std::string_view slot = next_word(line);
+  event.content = line;
+  const auto read = std::from_chars(slot.data(), slot.data() + slot.size(), event.slot);
+  return read.ec == std::errc() ? std::optional(event) : std::nullopt;
+}
+
+/// Calls `use` with each whole line of a file and the place where it begins. Returns the size of these lines.
+template <class Use>
+std::uint64_t for_each_line(const std::filesystem::path& file, const Use& use) {
+  std::uint64_t size = 0;
+  std::ifstream stream(file, std::ios::binary);
+  for (std::string line; std::getline(stream, line) && !stream.eof();) {
+    use(line, size);
+    size += line.size() + 1;
+  }
+  return size;
+}
 
 /// Null where it is no document, or one out of all bounds.
 nlohmann::json parsed(const std::string& document) {
@@ -31,208 +79,88 @@ std::optional<std::string> id_of(const std::string& document) {
   return id != json.end() && id->is_string() ? std::optional(id->get<std::string>()) : std::nullopt;
 }
 
-std::string begin_line(std::size_t slot) {
-  return fmt::format("begin {}", slot);
-}
-
-std::string done_line(std::size_t slot, const Digest& digest) {
-  return fmt::format("done {} {}", slot, digest.text());
-}
-
-struct JournalEntry {
-  unsigned char tries = 0;
-  std::string done;  ///< the last "done" line
-};
-
-/// Reads the journal entry of each slot. Incomplete lines are ignored.
-std::vector<JournalEntry> read_journal(const std::filesystem::path& folder, std::size_t slots) {
-  constexpr unsigned char kMostCounted = 255;
-  std::vector<JournalEntry> entries(slots);
-  std::ifstream stream(folder / kJournal, std::ios::binary);
-  for (std::string line; std::getline(stream, line) && !stream.eof();) {
-    std::istringstream words(line);
-    std::string word;
-    std::size_t slot = 0;
-    if (!(words >> word >> slot) || slot >= slots) continue;
-    JournalEntry& entry = entries[slot];
-    if (word == "begin" && entry.tries < kMostCounted) ++entry.tries;
-    if (word == "done" || word == "end") entry.tries = 0;
-    if (word == "done") entry.done = line;
-  }
-  return entries;
-}
-
-/// The whole lines of results.jsonl with a slot. Whether they are as they were written is not checked here.
-FoundResults read_results(const std::filesystem::path& folder, const WorkList& list) {
-  FoundResults found(list.is_mine.size());
-  std::ifstream stream(folder / kResults, std::ios::binary);
-  for (std::string line; std::getline(stream, line) && !stream.eof();) {
-    const std::uint64_t offset = std::exchange(found.size, found.size + line.size() + 1);
-    const auto id = id_of(line);
-    const auto slot = id ? list.slots.find(*id) : std::nullopt;
-    if (slot) found.lines.push_back({*slot, offset, digest_of(line)});
-  }
-  return found;
-}
-
-std::uint64_t size_of(const std::filesystem::path& file) {
-  std::error_code ignored;
-  return std::filesystem::file_size(file, ignored);
-}
-
-std::string summary_of(const LoggedResult& result) {
-  return result.has_failed ? summary_of_failure(result.key, failure_from(result.line).code)
-                           : summary_of_result(result.key, result.line);
-}
-
 }  // namespace
 
-FoundResults find_results(const std::filesystem::path& folder, const RunRecord& before, const WorkList& list) {
-  FoundResults found = read_results(folder, list);
-  if (before.finished) {
-    const auto digest = digest_of_file((folder / kResults).string());
-    if (digest && digest->text() == before.digests.results) return found;
-    found.lines.clear();
-    found.damaged = before.progress.total;
-    return found;
+ResultLog::ResultLog(const std::filesystem::path& folder, std::size_t slots)
+    : slots_(slots),
+      file_(folder / kJournal,
+            for_each_line(folder / kJournal, [&](const std::string& line, auto place) { take(line, place); })) {}
+
+void ResultLog::take(std::string_view line, std::uint64_t place) {
+  constexpr unsigned char kMostCounted = 255;
+  const std::optional<Event> event = event_in(line);
+  if (!event || event->slot >= slots_.size()) {
+    ++damaged_;
+    return;
   }
-  const std::size_t slots = list.is_mine.size();
-  const std::vector<JournalEntry> journal = read_journal(folder, slots);
-  std::vector<bool> is_found(slots, false);
-  std::erase_if(found.lines, [&](const FoundResults::Line& line) {
-    if (journal[line.slot].done != done_line(line.slot, line.digest)) return true;
-    is_found[line.slot] = true;
-    return false;
-  });
-  for (std::size_t slot = 0; slot < slots; ++slot) {
-    found.tries[slot] = journal[slot].tries;
-    if (!journal[slot].done.empty() && !is_found[slot]) ++found.damaged;
+  Slot& slot = slots_[event->slot];
+  if (event->word == kBegun && slot.tries < kMostCounted) ++slot.tries;
+  if (event->word != kBegun) slot.tries = 0;
+  if (event->word == kFailed) slot.kind = Kind::Nothing;
+  if (event->word == kFitted) {
+    slot.kind = Kind::Result;
+    slot.place = place + static_cast<std::uint64_t>(event->content.data() - line.data());
   }
-  return found;
 }
 
-void write_journal(const std::filesystem::path& folder, const FoundResults& found) {
-  Replacement journal(folder / kJournal);
-  for (std::size_t slot = 0; slot < found.tries.size(); ++slot) {
-    for (unsigned tries = 0; tries < found.tries[slot]; ++tries) journal.append(begin_line(slot) + "\n");
+/// Has the file open for itself: the place of a line is that of the process that appends it.
+void ResultLog::begin(std::size_t slot) const {
+  LineFile file = file_.opened_again();
+  file.append(journal_line(kBegun, slot));
+  file.throw_error();
+}
+
+void ResultLog::add_result(std::size_t slot, std::string_view document) {
+  add(Kind::Result, slot, kFitted, document);
+}
+
+void ResultLog::add_failure(std::size_t slot, const std::string& id, const Error& failure) {
+  add(Kind::Failure, slot, kFailed, failure_line(id, failure));
+}
+
+void ResultLog::add(Kind kind, std::size_t slot, std::string_view word, std::string_view content) {
+  const std::string line = journal_line(word, slot, content);
+  const std::uint64_t place = file_.append(line);
+  slots_[slot].place = place + line.size() - content.size();
+  slots_[slot].kind = kind;
+}
+
+void ResultLog::add_end(std::size_t slot) {
+  (void)file_.append(journal_line(kEnded, slot));
+}
+
+bool journal_has_results(const std::filesystem::path& folder) {
+  bool has_results = false;
+  for_each_line(folder / kJournal, [&](const std::string& line, std::uint64_t) {
+    if (has_results) return;
+    const std::optional<Event> event = event_in(line);
+    has_results = event && event->word == kFitted;
+  });
+  return has_results;
+}
+
+std::size_t begin_journal(const std::filesystem::path& folder, const RunRecord* before, const WorkList& list) {
+  Replacement journal(folder / kJournal, folder / kResults);  // the same documents
+  std::size_t damaged = 0;
+  if (before != nullptr) {
+    const auto digest = digest_of_file((folder / kResults).string());
+    if (digest && digest->text() == before->digests.results) {
+      for_each_line(folder / kResults, [&](const std::string& document, std::uint64_t) {
+        const auto id = id_of(document);
+        const auto slot = id ? list.slots.find(*id) : std::nullopt;
+        if (slot) journal.append(journal_line(kFitted, *slot, document) + "\n");
+      });
+    } else {
+      damaged = before->progress.total;
+    }
   }
-  for (const FoundResults::Line& line : found.lines) journal.append(done_line(line.slot, line.digest) + "\n");
   journal.finish();
+  return damaged;
 }
 
 void remove_journal(const std::filesystem::path& folder) {
   std::error_code ignored;
   std::filesystem::remove(folder / kJournal, ignored);
-}
-
-ResultLog::ResultLog(const std::filesystem::path& folder, FoundResults found)
-    : results_(folder / kResults, found.size),
-      failures_(folder / kFailures, 0),
-      journal_(folder / kJournal, size_of(folder / kJournal)),
-      offsets_(found.tries.size(), 0),
-      kinds_(found.tries.size(), Kind::Nothing),
-      tries_(std::move(found.tries)) {
-  for (const FoundResults::Line& line : found.lines) {
-    offsets_[line.slot] = line.offset;
-    kinds_[line.slot] = Kind::Result;
-  }
-  failures_.append(failure_names());
-}
-
-void ResultLog::begin(std::size_t slot) {
-  journal_.append(begin_line(slot));
-}
-
-void ResultLog::add_result(std::size_t slot, std::string_view document) {
-  offsets_[slot] = results_.append(document);
-  kinds_[slot] = Kind::Result;
-  if (!results_.has_failed()) journal_.append(done_line(slot, digest_of(document)));
-}
-
-void ResultLog::add_failure(std::size_t slot, const std::string& id, const Error& failure) {
-  offsets_[slot] = failures_.append(failure_line(id, failure));
-  kinds_[slot] = Kind::Failure;
-  if (!failures_.has_failed()) add_end(slot);
-}
-
-void ResultLog::add_end(std::size_t slot) {
-  journal_.append(fmt::format("end {}", slot));
-}
-
-void ResultLog::sync() {
-  for (LineFile* const file : {&results_, &failures_, &journal_}) file->sync();
-}
-
-void ResultLog::throw_error() const {
-  for (const LineFile* const file : {&results_, &failures_, &journal_}) file->throw_error();
-}
-
-Result<std::string> ResultLog::line_of(std::size_t slot) const {
-  return (kinds_[slot] == Kind::Failure ? failures_ : results_).line_at(offsets_[slot]);
-}
-
-void for_each_result(const std::filesystem::path& manifest, const WorkList& list, const ResultLog& log,
-                     const std::function<void(const LoggedResult&)>& use) {
-  const auto use_slot = [&](std::size_t slot, const SummaryKey& key) {
-    if (log.kind_of(slot) == ResultLog::Kind::Nothing) return;
-    use({slot, key, !log.has_result(slot), value_or_throw(log.line_of(slot))});
-  };
-  std::size_t group = 0;
-  Entries entries(manifest);
-  while (const auto entry = entries.next()) {
-    use_slot(entry->row - 1, {entry->row, entry->id, entry->group, printable(entry->file.string())});
-    for (; group < list.groups.size() && list.groups[group].last_row == entry->row; ++group) {
-      const std::string& name = list.groups[group].name;
-      use_slot(list.slot_of_group(group), {entry->row, id_of_group(name), name, ""});
-    }
-  }
-}
-
-FinalFiles::FinalFiles(const std::filesystem::path& folder)
-    : results_(folder / kResults), summary_(folder / kSummary), failures_(folder / kFailures) {
-  summary_.append(summary_names() + "\n");
-  failures_.append(failure_names() + "\n");
-}
-
-void FinalFiles::add_result(const std::string& document, const std::string& summary) {
-  results_.append(document + "\n");
-  summary_.append(summary + "\n");
-}
-
-void FinalFiles::add_failure(const std::string& failure, const std::string& summary) {
-  failures_.append(failure + "\n");
-  summary_.append(summary + "\n");
-}
-
-FileDigests FinalFiles::finish() {
-  for (const Replacement* const file : {&results_, &failures_, &summary_}) file->throw_error();
-  for (Replacement* const file : {&results_, &failures_, &summary_}) file->finish();
-  return {results_.digest().text(), summary_.digest().text(), failures_.digest().text()};
-}
-
-FileDigests write_final_files(const std::filesystem::path& folder, const std::filesystem::path& manifest,
-                              const WorkList& list, const ResultLog& log) {
-  constexpr std::size_t kSideBySide = 256;  // so many documents are in memory
-  FinalFiles files(folder);
-  std::vector<LoggedResult> results;
-  const auto add_all = [&] {
-    const std::vector<std::string> summaries =
-        in_parallel(results.size(), [&](std::size_t i) { return summary_of(results[i]); });
-    for (std::size_t i = 0; i < results.size(); ++i) {
-      if (results[i].has_failed) {
-        files.add_failure(results[i].line, summaries[i]);
-      } else {
-        files.add_result(results[i].line, summaries[i]);
-      }
-    }
-    results.clear();
-  };
-  for_each_result(manifest, list, log, [&](const LoggedResult& result) {
-    results.push_back(result);
-    if (results.size() == kSideBySide) add_all();
-  });
-  add_all();
-  return files.finish();
 }
 
 }  // namespace slipfit::batch

@@ -52,10 +52,9 @@ Result<BatchFit> fit_without_exceptions(const WorkItem& item) {
   }
 }
 
-std::string fit_reply(const WorkItem& item, const BatchOptions& options, ResultLog& log, Reply::Kind kind) {
+std::string fit_reply(const WorkItem& item, const BatchOptions& options, const ResultLog& log, Reply::Kind kind) {
   try {
     log.begin(item.key.slot);
-    log.throw_error();
     const auto fit = fit_without_exceptions(item);
     if (!fit) return reply_text(Reply::Kind::Failed, fit.error());
     if (options.report && !fit.value().page.empty()) write_page(*options.report, item.key, fit.value());
@@ -175,7 +174,7 @@ Result<BatchFit> fit_recording_of(const ManifestEntry& entry, const BatchOptions
   return result;
 }
 
-std::string work_on(const WorkItem& item, const BatchOptions& options, ResultLog& log) {
+std::string work_on(const WorkItem& item, const BatchOptions& options, const ResultLog& log) {
   const std::size_t slot = item.key.slot;
   const auto line = log.has_result(slot) ? log.line_of(slot) : Error{};
   if (!line) return fit_reply(item, options, log, Reply::Kind::Fitted);

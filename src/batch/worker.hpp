@@ -47,7 +47,7 @@ struct Reply {
 };
 
 /// Fits the item unless its result exists and is of the same bytes, and writes its page. The reply as text.
-std::string work_on(const WorkItem& item, const BatchOptions& options, ResultLog& log);
+std::string work_on(const WorkItem& item, const BatchOptions& options, const ResultLog& log);
 
 Reply read_reply(const std::string& text);
 

@@ -109,9 +109,6 @@ inline constexpr double kHiding = 6.0;
 /// Relative standard error of a count that guides the search of the spectrum. [1; convention]
 inline constexpr double kSureCount = 0.01;
 
-/// Standard errors between the spectrum's frequency and the fit's, above which the fit is believed. [1; convention]
-inline constexpr double kFarApart = 4.0;
-
 /// Relative distance of frequencies that are the same. [1; convention]
 inline constexpr double kAlike = 0.05;
 
@@ -154,9 +151,6 @@ inline constexpr double kDistinctShare = 0.05;
 
 /// Largest distance of a rounded value from its lattice over the step. [1; derived: what a file's decimals may move it]
 inline constexpr double kOffLattice = 0.1;
-
-/// Fewest samples at a level where the sensor saturates. [count; convention]
-inline constexpr std::size_t kFewestClipped = 8;
 
 /// Samples at such a level over those at the next value. [1; convention]
 inline constexpr double kClippedPile = 6.0;
@@ -202,9 +196,6 @@ inline constexpr double kFarOverTypical = 8.0;
 /// Largest share of intervals that are called broken. [1; convention]
 inline constexpr double kFewBroken = 0.25;
 
-/// Fewest intervals in which a change is looked for. [count; convention]
-inline constexpr std::size_t kFewestForChange = 10;
-
 /// Standard errors between two parts of a recording that differ. [1; derived: the best of many splits reaches 3 to 4 by
 /// chance]
 inline constexpr double kBeyondScatter = 6.0;
@@ -214,10 +205,6 @@ inline constexpr double kNotableChange = 0.2;
 
 /// Mean length of a run of equal values, from which on the logger is quicker than the converter. [samples; convention]
 inline constexpr double kShortestRepeat = 1.5;
-
-/// Largest variance of the length of such runs. [samples^2; derived: 1/4 at most between two neighbouring lengths, 3/4
-/// and more for values that repeat by chance; two equal readings in twenty are allowed for]
-inline constexpr double kEvenRepeats = 0.45;
 
 /// Usual change from run to run over the smallest one, below which values repeat because they are rounded.
 /// [1; convention]

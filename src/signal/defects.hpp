@@ -23,9 +23,8 @@ struct Clipping {
 
 Clipping find_clipping(std::span<const double> values, std::optional<double> step);
 
-/// First sample of each run of equal values, where a logger reads its converter more often than that has a new value:
-/// runs are (nearly) equally long, and from run to run the value changes by several steps. Empty where values repeat
-/// by chance or by rounding, or hardly at all.
+/// Returns the first sample of each run of equal values if a logger reads its converter more often than that has a new
+/// value: from run to run the value changes by several steps. Empty if values repeat by rounding, or hardly at all.
 std::vector<std::size_t> first_of_repeats(std::span<const double> force);
 
 }  // namespace slipfit::signal

@@ -70,7 +70,7 @@ bool fills_lattice(std::span<const double> values, double origin, double lowest,
 std::size_t piled_up(std::span<const double> values, double sign, double end) {
   const auto at_end = static_cast<std::size_t>(std::ranges::count(values, end));
   // Half of all samples at one level is a force at rest, not a sensor at its end.
-  if (at_end < thresholds::kFewestClipped || 2 * at_end >= values.size()) return 0;
+  if (static_cast<double>(at_end) <= thresholds::kClippedPile || 2 * at_end >= values.size()) return 0;
   double next = -sign * HUGE_VAL;
   for (const double value : values) {
     if (value != end && sign * value > sign * next) next = value;

@@ -32,19 +32,6 @@ Changes changes_between(std::span<const double> force, const std::vector<std::si
   return {median(std::move(sizes)), smallest};
 }
 
-/// Variance of the lengths of the runs, the first and the last aside.
-double length_variance(const std::vector<std::size_t>& first) {
-  double mean = 0.0, square = 0.0, count = 0.0;
-  for (std::size_t run = 2; run < first.size(); ++run) {
-    const auto length = static_cast<double>(first[run] - first[run - 1]);
-    count += 1.0;
-    const double step = length - mean;
-    mean += step / count;
-    square += step * (length - mean);
-  }
-  return square / std::max(1.0, count - 1.0);
-}
-
 }  // namespace
 
 std::vector<std::size_t> first_of_repeats(std::span<const double> force) {
@@ -54,7 +41,7 @@ std::vector<std::size_t> first_of_repeats(std::span<const double> force) {
   for (std::size_t i = 1; i < force.size(); ++i) {
     if (force[i] != force[i - 1]) first.push_back(i);
   }
-  if (first.size() < kFewestRuns || length_variance(first) > thresholds::kEvenRepeats) return {};
+  if (first.size() < kFewestRuns) return {};
   const Changes changes = changes_between(force, first);
   return changes.usual < thresholds::kRoundingSteps * changes.smallest ? std::vector<std::size_t>{} : first;
 }

@@ -99,7 +99,7 @@ TEST_CASE("of a longer path the standards take its beginning") {
   CHECK(*coefficients->standards[0].kinetic_coefficient.value == Approx((100 * 0.6 + 30 * 0.4) / 130).epsilon(0.01));
 }
 
-TEST_CASE("without a load there are no coefficients; of a column of coefficients they are those") {
+TEST_CASE("without a load there are no coefficients, and of a column of coefficients they are those") {
   CHECK_FALSE(analyze(sawteeth(1, conditions_of(std::nullopt))).coefficients);
   Conditions conditions = conditions_of(std::nullopt);
   conditions.quantity = ForceQuantity::FrictionCoefficient;

@@ -167,15 +167,21 @@ TEST_CASE("run.json records what was run and how it ended") {
 
 TEST_CASE("files of a batch have the mode that the umask leaves, and keep one that the user gave them") {
   namespace fs = std::filesystem;
-  const BatchScene scene(1);
+  const BatchScene scene(2);
+  fs::remove(scene.path("r1.csv"));
   const auto run = test::run_program("sh", {"-c", "umask 027; exec \"$0\" batch \"$1\" --out \"$2\"",
                                             SLIPFIT_EXECUTABLE, scene.manifest(), scene.path("out")});
-  REQUIRE(run.exit_code == 0);
+  REQUIRE(run.exit_code == 1);
   const auto mode = [&](const std::string& name) { return fs::status(scene.path("out/" + name)).permissions(); };
   const fs::perms own = fs::perms::owner_read | fs::perms::owner_write;
   for (const std::string name : {"results.jsonl", "summary.csv", "run.json"})
     CHECK(mode(name) == (own | fs::perms::group_read));
   fs::permissions(scene.path("out/results.jsonl"), own);
-  REQUIRE(batch(scene.manifest(), scene.path("out"), {"--resume"}).exit_code == 0);
+  REQUIRE(test::run_program("mkfifo", {scene.path("r1.csv")}).exit_code == 0);  // it blocks: the batch stays unfinished
+  (void)test::run_program("timeout", {"--signal", "KILL", "1", SLIPFIT_EXECUTABLE, "batch", scene.manifest(), "--out",
+                                      scene.path("out"), "--resume"});
+  CHECK(mode("journal") == own);
+  fs::remove(scene.path("r1.csv"));
+  REQUIRE(batch(scene.manifest(), scene.path("out"), {"--resume"}).exit_code == 1);
   CHECK(mode("results.jsonl") == own);
 }

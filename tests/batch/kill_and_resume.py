@@ -75,7 +75,7 @@ def kill_once(slipfit, manifest, out, options, seconds, chance):
     time.sleep(chance.uniform(0.0, seconds))
     process.kill()
     process.communicate()
-    lose_some_bytes(out / "results.jsonl", chance)
+    lose_some_bytes(out / "journal", chance)
     return process.returncode < 0
 
 

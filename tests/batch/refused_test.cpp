@@ -93,8 +93,8 @@ TEST_CASE("a full disk ends a batch with one line, and the folder can be gone on
   CAPTURE(run.err);
   CHECK(run.exit_code == 2);
   CHECK(test::lines_in(run.err) == 1);
-  CHECK_THAT(run.err, Catch::Contains("results.jsonl: cannot be written") && Catch::Contains("--resume"));
-  CHECK(test::content_of(scene.path("small/results.jsonl")).back() != '\n');
+  CHECK_THAT(run.err, Catch::Contains("journal: cannot be written") && Catch::Contains("--resume"));
+  CHECK(test::content_of(scene.path("small/journal")).back() != '\n');
   for (const auto& entry : std::filesystem::directory_iterator(scene.path("small"))) {
     CHECK_THAT(entry.path().filename().string(), !Catch::EndsWith(".new"));
   }

@@ -77,7 +77,7 @@ TEST_CASE("a report of a finished batch can be asked for later, and makes only t
   CHECK(fs::last_write_time(kept) == long_ago);
 }
 
-TEST_CASE("shards may share a report's folder; after the merge the index is made of the pages at hand") {
+TEST_CASE("shards may share a report's folder, and after the merge the index is made of the pages at hand") {
   const BatchScene scene(4);
   (void)batch(scene.manifest(), scene.path("single"), reported(scene, "whole", {}));
   for (const std::string shard : {"1/2", "2/2"}) {

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
@@ -14,14 +15,25 @@ using test::lines_of;
 
 namespace {
 
-/// As the journal of an unfinished batch has them.
-std::string journal_of(const std::vector<std::string>& lines) {
-  std::string journal;
-  for (std::size_t slot = 0; slot < lines.size(); ++slot) {
-    journal += "begin " + std::to_string(slot) + "\ndone " + std::to_string(slot) + " " +
-               slipfit::digest_of(lines[slot]).text() + "\n";
+/// An event as a journal has it.
+std::string event(const std::string& text) {
+  return slipfit::digest_of(text).text() + " " + text + "\n";
+}
+
+/// What the journal of an unfinished batch holds for each of its documents.
+std::vector<std::string> events_of(const std::vector<std::string>& documents) {
+  std::vector<std::string> events;
+  for (std::size_t slot = 0; slot < documents.size(); ++slot) {
+    const std::string place = std::to_string(slot);
+    events.push_back(event("begin " + place) + event("fit " + place + " " + documents[slot]));
   }
-  return journal;
+  return events;
+}
+
+std::size_t fits_in(const std::string& journal) {
+  const auto lines = lines_of(journal);
+  return static_cast<std::size_t>(std::count_if(
+      lines.begin(), lines.end(), [](const std::string& line) { return line.find(" fit ") == line.find(' '); }));
 }
 
 /// A finished batch, and what a kill would leave of it.
@@ -32,19 +44,19 @@ class Interrupted {
     whole_ = files_in(scene_.path("out"));
   }
 
-  /// Goes on from these bytes of results.jsonl, and demands the files of the whole run.
-  void check_resumed_from(const std::string& results, const std::string& more_journal = "begin 0\nbeg") const {
+  /// Goes on from these bytes of the journal, and demands the files of the whole run.
+  void check_resumed_from(const std::string& journal) const {
     auto unfinished = nlohmann::ordered_json::parse(content_of(scene_.path("out/run.json")));
     unfinished["finished"] = false;
     (void)scene_.file("out/run.json", unfinished.dump());
-    (void)scene_.file("out/journal", journal_of(lines_of(whole_.results)) + more_journal);
+    (void)scene_.file("out/journal", journal);
     std::filesystem::remove(scene_.path("out/summary.csv"));
-    (void)scene_.file("out/results.jsonl", results);
+    (void)scene_.file("out/results.jsonl", "of an earlier time");
     (void)scene_.file("out/failures.csv", "id,co");
     (void)scene_.file("out/lock", "slipfit batch, process 1 on nowhere");
     (void)scene_.file("out/.results.jsonl.a1B2c3.new", "left over");
     const auto run = batch(scene_.manifest(), scene_.path("out"), {"--resume", "--jobs", "2"});
-    CAPTURE(run.err, results.size());
+    CAPTURE(run.err, journal.size());
     CHECK(run.exit_code == 0);
     CHECK(files_in(scene_.path("out")) == whole_);
     CHECK_FALSE(std::filesystem::exists(scene_.path("out/.results.jsonl.a1B2c3.new")));
@@ -52,7 +64,8 @@ class Interrupted {
     CHECK_FALSE(std::filesystem::exists(scene_.path("out/lock")));
   }
 
-  [[nodiscard]] const std::string& results() const { return whole_.results; }
+  /// The events of each recording.
+  [[nodiscard]] std::vector<std::string> events() const { return events_of(lines_of(whole_.results)); }
   [[nodiscard]] nlohmann::json record() const { return nlohmann::json::parse(content_of(scene_.path("out/run.json"))); }
 
  private:
@@ -71,40 +84,43 @@ std::string long_manifest(const BatchScene& scene) {
 
 TEST_CASE("a batch that was interrupted at any byte continues to the same files") {
   const Interrupted run(5);
-  const std::string& results = run.results();
-  const std::size_t first_line = results.find('\n') + 1;
+  std::string journal;
+  for (const std::string& events : run.events()) journal += events;
+  const std::size_t first_line = journal.find('\n') + 1;
   for (const std::size_t size : {std::size_t{0}, std::size_t{1}, first_line - 1, first_line, first_line + 1,
-                                 results.size() / 2, results.size() - 1, results.size()}) {
-    run.check_resumed_from(results.substr(0, size));
+                                 journal.size() / 2, journal.size() - 1, journal.size()}) {
+    run.check_resumed_from(journal.substr(0, size));
   }
 }
 
 TEST_CASE("lines in another order, twice, of no recording or without sense do not disturb a resumed batch") {
   const Interrupted run(4);
-  const auto lines = lines_of(run.results());
-  run.check_resumed_from(lines[3] + "\n" + lines[1] + "\n");
-  run.check_resumed_from(lines[0] + "\n" + lines[0] + "\n" + lines[2] + "\n");
-  run.check_resumed_from(std::string(200, '\0') + "\n" + lines[2] + "\n");
-  run.check_resumed_from("{}\n[1]\n{\"id\": \"stranger\"}\n" + lines[2] + "\n" + lines[1].substr(0, 100));
+  const auto events = run.events();
+  run.check_resumed_from(events[3] + events[1]);
+  run.check_resumed_from(events[0] + events[0] + events[2]);
+  run.check_resumed_from(std::string(200, '\0') + "\n" + events[2]);
+  run.check_resumed_from("\n \n{}\nfit 1 {}\n" + event("fit 99 {}") + event("fit x {}") + event("nothing 1") +
+                         event("") + events[2] + events[1].substr(0, 100));
+  CHECK(run.record()["before"] == 1);
 }
 
 TEST_CASE("a resumed batch does not repeat finished results") {
   const Interrupted run(4);
-  const auto lines = lines_of(run.results());
-  run.check_resumed_from(lines[0] + "\n" + lines[2] + "\n" + lines[3]);
+  const auto events = run.events();
+  run.check_resumed_from(events[0] + events[2] + events[3].substr(0, events[3].size() - 1));
   CHECK(run.record()["before"] == 2);
   CHECK(run.record()["fitted"] == 2);
 }
 
 TEST_CASE("an altered line is done again, whatever was altered in it") {
   const Interrupted run(4);
-  const auto lines = lines_of(run.results());
-  const auto with = [&](std::size_t line, std::string from, const std::string& to) {
-    auto altered = lines;
-    const std::size_t place = altered[line].find(from);
+  const auto events = run.events();
+  const auto with = [&](std::size_t recording, std::string from, const std::string& to) {
+    auto altered = events;
+    const std::size_t place = altered[recording].find(from);
     REQUIRE(place != std::string::npos);
-    altered[line].replace(place, from.size(), to);
-    return altered[0] + "\n" + altered[1] + "\n" + altered[2] + "\n" + altered[3] + "\n";
+    altered[recording].replace(place, from.size(), to);
+    return altered[0] + altered[1] + altered[2] + altered[3];
   };
   const std::string number = R"("value":1)";
   run.check_resumed_from(with(1, number, R"("value":2)"));
@@ -113,6 +129,8 @@ TEST_CASE("an altered line is done again, whatever was altered in it") {
   CHECK(run.record()["before"] == 3);
   run.check_resumed_from(with(2, R"("id":"r2")", R"("id":"stranger")"));
   run.check_resumed_from(with(2, "{", "["));
+  run.check_resumed_from(with(1, " fit 1 ", " fit 2 "));
+  CHECK(run.record()["before"] == 3);
 }
 
 TEST_CASE("where results.jsonl of a finished batch was altered, it is said and done again") {
@@ -152,13 +170,13 @@ TEST_CASE("a recording at which the process died three times has failed, and is 
     auto record = nlohmann::ordered_json::parse(content_of(scene.path("out/run.json")));
     record["finished"] = false;
     (void)scene.file("out/run.json", record.dump());
-    (void)scene.file("out/results.jsonl", "");
     (void)scene.file("out/journal", journal);
   };
-  leave("begin 1\nbegin 1\n");
+  const std::string begun = event("begin 1");
+  leave(begun + begun);
   CHECK(batch(scene.manifest(), scene.path("out"), {"--resume"}).exit_code == 0);
   CHECK(files_in(scene.path("out")) == whole);
-  leave("begin 1\nbegin 1\nbegin 2\nend 2\nbegin 1\n");
+  leave(begun + begun + event("begin 2") + event("end 2") + begun);
   CHECK(batch(scene.manifest(), scene.path("out"), {"--resume"}).exit_code == 1);
   CHECK(lines_of(files_in(scene.path("out")).results).size() == 2);
   CHECK_THAT(files_in(scene.path("out")).failures, Catch::Contains("\nr1,crashed,") && Catch::Contains("3 times"));
@@ -202,20 +220,22 @@ TEST_CASE("Ctrl-C and SIGTERM leave whole lines, a folder to go on with, and the
     CHECK(run.exit_code == exit_code);
     CHECK(test::lines_in(run.err) == 1);
     CHECK_THAT(run.err, Catch::Contains("of 5000 recordings; --resume continues"));
-    const std::string results = content_of(scene.path("out/results.jsonl"));
-    REQUIRE_FALSE(results.empty());
-    CHECK(results.back() == '\n');
+    const std::string journal = content_of(scene.path("out/journal"));
+    REQUIRE_FALSE(journal.empty());
+    CHECK(journal.back() == '\n');
     const auto record = nlohmann::json::parse(content_of(scene.path("out/run.json")));
     CHECK(record["finished"] == false);
-    CHECK(record["before"].get<std::size_t>() + record["fitted"].get<std::size_t>() == lines_of(results).size());
-    CHECK_FALSE(std::filesystem::exists(scene.path("out/summary.csv")));
+    CHECK(record["before"].get<std::size_t>() + record["fitted"].get<std::size_t>() == fits_in(journal));
+    for (const std::string name : {"results.jsonl", "summary.csv", "failures.csv"}) {
+      CHECK_FALSE(std::filesystem::exists(scene.path("out/" + name)));
+    }
   }
 }
 
 TEST_CASE("two batches on one folder exclude each other") {
   const BatchScene scene(5);
   const std::string both =
-      "\"$0\" batch \"$1\" --out \"$2\" --quiet & first=$!; until [ -s \"$2/results.jsonl\" ]; do sleep 0.05; done; "
+      "\"$0\" batch \"$1\" --out \"$2\" --quiet & first=$!; until [ -s \"$2/journal\" ]; do sleep 0.05; done; "
       "\"$0\" batch \"$1\" --out \"$2\" --resume; second=$?; kill -KILL $first; exit $second";
   const auto run = test::run_program("sh", {"-c", both, SLIPFIT_EXECUTABLE, long_manifest(scene), scene.path("out")});
   CAPTURE(run.err);

@@ -145,8 +145,8 @@ def kill_one_task(folder):
     for _ in range(600):
         for lock in folder.glob(f"results/shard-*-of-{SHARDS}/lock"):
             words = lock.read_text().split() if lock.exists() else []
-            results = lock.parent / "results.jsonl"
-            if len(words) > 3 and results.exists() and results.stat().st_size > 0:
+            journal = lock.parent / "journal"
+            if len(words) > 3 and journal.exists() and journal.stat().st_size > 0:
                 try:
                     os.kill(int(words[3]), signal.SIGKILL)
                 except ProcessLookupError:

@@ -89,7 +89,7 @@ TEST_CASE("speeds are a logarithmic range with exact ends, or a list in the orde
   CHECK(list[2]["speed_m_per_s"] == 0.01);
 }
 
-TEST_CASE("model options give the exact motion without intervals; above the critical speed there is none") {
+TEST_CASE("model options give the exact motion without intervals, and above the critical speed there is none") {
   const json prediction = predicted(test::model_options(), "20mm/s,0.5");
   CHECK(prediction["source"] == "command line");
   CHECK(prediction["lambda_critical"]["value"].get<double>() == Approx(0.910670).epsilon(1e-5));  // design reference
@@ -125,7 +125,7 @@ TEST_CASE("near the critical speed the row states that the data do not determine
   CHECK_THAT(text.out, Catch::Contains("the data do not determine"));
 }
 
-TEST_CASE("the table for people has prefixes and bands; --out and --csv write the same numbers") {
+TEST_CASE("the table for people has prefixes and bands, and --out and --csv write the same numbers") {
   const test::FitExample example;
   const std::vector<std::string> arguments{"predict", example.fit, "--speeds", "10mm/s:40mm/s:3"};
   const test::ProgramResult text = slipfit(arguments);

@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "slipfit/report/comparison.hpp"
@@ -32,7 +33,7 @@ ComparedFit fit_of(const json& content) {
   return compared_fit(content.dump()).value();
 }
 
-const QuantityComparison& of(const Comparison& comparison, const std::string& key) {
+const QuantityComparison& of(const Comparison& comparison, std::string_view key) {
   for (const QuantityComparison& quantity : comparison.quantities) {
     if (quantity.quantity.key == key) return quantity;
   }

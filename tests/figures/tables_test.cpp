@@ -113,7 +113,7 @@ TEST_CASE("figure 7 shows stick-slip from the exact limit on, and the approximat
   }
 }
 
-TEST_CASE("figure 8: no damping is eq. (23); critical speeds follow from the limits of figure 7") {
+TEST_CASE("figure 8: no damping is eq. (23), and critical speeds follow from the limits of figure 7") {
   auto table = figure_table("figure_8.csv");
   auto speeds = figure_table("figure_8_critical_speeds.csv");
   auto limits = figure_table("figure_7_limits.csv");

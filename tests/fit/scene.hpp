@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <random>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -59,7 +60,7 @@ inline Recording moving_average(const Recording& exact, std::size_t samples, dou
   return Recording::create(std::move(time_s), std::move(force), exact.conditions()).value();
 }
 
-inline const Parameter& parameter(const Analysis& analysis, const std::string& name) {
+inline const Parameter& parameter(const Analysis& analysis, std::string_view name) {
   for (const Parameter& p : analysis.fit->parameters) {
     if (p.name() == name) return p;
   }

@@ -136,7 +136,7 @@ TEST_CASE("a moving average of the limit cycle is that of numerical integration"
   }
 }
 
-TEST_CASE("a stated averaging gives the parameters back; unstated it is seen, and nothing of the slip is sure") {
+TEST_CASE("a stated averaging gives the parameters back, and unstated it is seen, and nothing of the slip is sure") {
   const Scene s{.jitter = 0.03, .noise = 0.01};
   constexpr double kSamples = 8.0;  // of 30 in a slip: w_n is 4 % too small without it
   const Recording shown = averaged(s, kSamples);

@@ -4,6 +4,7 @@
 #include <map>
 #include <random>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -18,7 +19,7 @@ namespace {
 
 const std::vector<double> kSpeeds{0.005, 0.01, 0.02, 0.04};
 
-const Parameter& parameter(const SweepAnalysis& sweep, const std::string& name) {
+const Parameter& parameter(const SweepAnalysis& sweep, std::string_view name) {
   for (const Parameter& p : sweep.fit->result.parameters) {
     if (p.name() == name) return p;
   }
@@ -218,7 +219,7 @@ TEST_CASE("sweep: one speed cannot tell alpha, and says so") {
   CHECK_THAT(parameter(sweep, "alpha_s_per_m").estimate.note, Catch::Contains("too little to determine alpha"));
 }
 
-TEST_CASE("sweep: recordings with zeros of their own share no level; damping is then conditional") {
+TEST_CASE("sweep: recordings with zeros of their own share no level, and damping is then conditional") {
   SweepScene scene;
   scene.offset_N = 0.3;
   const SweepAnalysis sweep = analyze_sweep(test::record_sweep(scene, kSpeeds));

@@ -43,7 +43,7 @@ TEST_CASE("a date, a clock and a force in columns of their own, with decimal com
     for (const char delimiter : {';', '\t'}) {
       CAPTURE(clock_sign, delimiter);
       const std::string d(1, delimiter);
-      check_samples(read_ok(text_of("Datum" + d + "Uhrzeit" + d + "Kraft in N",
+      check_samples(read_ok(text_of(fmt::format("Datum{0}Uhrzeit{0}Kraft in N", d),
                                     [&](int s, int ms, double force) {
                                       return fmt::format("26.11.2026{}10:00:{:02d}{}{:03d}{}{}", d, s, clock_sign, ms,
                                                          d, with_comma(force, 4));

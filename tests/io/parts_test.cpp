@@ -63,7 +63,7 @@ TEST_CASE("an unknown unit neither conceals the names nor refuses the file") {
   CHECK(says(recording, {"Force is column 2 'Ff', in g"}));
 }
 
-TEST_CASE("a column of steps parts a file; the force is the one that gives the friction coefficient") {
+TEST_CASE("a column of steps parts a file, and the force is the one that gives the friction coefficient") {
   const auto recording = read_ok(stepped("479", "555"));
   CHECK(recording.size() == 20);
   CHECK(says(recording, {"Force is column 4 'Fy [N]'"}));
@@ -155,7 +155,7 @@ TEST_CASE("a column of speeds replaces the stated speed, or contradicts it") {
   CHECK(read_ok(text("rpm"), radius, at_speed(0.0)).conditions().speed_m_per_s == Approx(0.0634).epsilon(0.01));
 }
 
-TEST_CASE("a stated normal force takes precedence; a column is selected by its name or an option") {
+TEST_CASE("a stated normal force takes precedence, and a column is selected by its name or an option") {
   const std::string text = "time,Ff [N],A [N],B [g]\n0,1,10,100\n1,2,10,100\n2,1,10,100\n3,2,10,100\n";
   CHECK_FALSE(read_ok(text).conditions().normal_force_N);
   ReadOptions options;

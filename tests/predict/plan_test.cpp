@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <string_view>
 #include <vector>
 
 #include "slipfit/sweep.hpp"
@@ -29,7 +30,7 @@ PlanBasis basis_of(const std::vector<SweepEntry>& entries, const SweepAnalysis& 
   return basis;
 }
 
-const ParameterLimit& limit_of(const Plan& plan, const std::string& name) {
+const ParameterLimit& limit_of(const Plan& plan, std::string_view name) {
   const auto found =
       std::find_if(plan.limits.begin(), plan.limits.end(), [&](const ParameterLimit& l) { return l.name == name; });
   REQUIRE(found != plan.limits.end());
@@ -111,7 +112,7 @@ TEST_CASE("a plan says whether noise, scatter or sampling limits a parameter") {
   CHECK(limit_of(wide, "stiffness_N_per_m").limit == Limit::Misfit);
 }
 
-TEST_CASE("options come best first, with enough cycles, below the end of stick-slip; halving needs what it says") {
+TEST_CASE("options come best first, with enough cycles, below the end of stick-slip, and halving needs what it says") {
   const PlanBasis basis = fitted_basis({}, {0.01, 0.02, 0.04}, 60);
   const Plan plan = plan_next(basis, PlanTarget{"periodic_displacement_m", 0.1}).value();
   REQUIRE(plan.options.size() >= 3);

@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "slipfit/background.hpp"
@@ -14,7 +15,7 @@ using namespace slipfit;
 
 namespace {
 
-const Parameter& parameter(const SweepAnalysis& sweep, const std::string& name) {
+const Parameter& parameter(const SweepAnalysis& sweep, std::string_view name) {
   const auto& all = sweep.fit->result.parameters;
   const auto found = std::find_if(all.begin(), all.end(), [&](const Parameter& p) { return p.name() == name; });
   REQUIRE(found != all.end());

@@ -136,6 +136,13 @@ def test_a_batch_is_opened(folder, runs):
     assert sf.compare(batch, batch["v0.02"]).to_frame().size
 
 
+def test_an_unfinished_batch_has_no_results(folder, tmp_path):
+    (tmp_path / "run.json").write_text((folder / "out" / "run.json").read_text().replace('"finished": true', '"finished": false'))
+    batch = sf.open_batch(tmp_path)
+    for read in (lambda: list(batch), lambda: batch.ids, lambda: batch["v0.02"], batch.to_frame, lambda: batch.failures):
+        assert error_of(read).code == "not_finished"
+
+
 def test_rows_are_those_of_the_summary(folder):
     batch = sf.open_batch(folder / "out")
     written = batch.to_frame().set_index("id").drop(columns="row")
