@@ -73,8 +73,8 @@ Estimate stiffness_by_sticks(const Subject& of) {
   const FitResult& fit = *of.analysis.fit;
   Estimate slope = of.analysis.cycles.stick_stiffness;
   if (!slope.value || !slope.standard_error || !has_long_sticks(of.analysis.cycles)) return {};
-  if (of.fit.find(Id::Relaxation) != nullptr || fit.find(Id::ReloadLength) != nullptr || of.fit.find(Id::ReloadLength) != nullptr ||
-      of.recording.conditions().force_view == ForceView::Contact)
+  if (of.fit.find(Id::Relaxation) != nullptr || fit.find(Id::ReloadLength) != nullptr ||
+      of.fit.find(Id::ReloadLength) != nullptr || of.recording.conditions().force_view == ForceView::Contact)
     return {};
   *slope.value -= fit.level_trend.in_sticks_per_s / of.speed_m_per_s();
   const double by_lines = fit.diagnostics.stick_slope_by_lines / of.speed_m_per_s();

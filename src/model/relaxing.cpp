@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "model/root_between.hpp"
-
 namespace slipfit::model {
 
 /// The motion of a slip about one instant, by powers of the time since.
@@ -67,7 +65,9 @@ RelaxingSlip::RelaxingSlip(double z0, double zeta, double share, const Times& ti
     slide();
     // Slips repeat: the stick before is like the one after it. Of what it is not, this share is left a period later.
     const Jet other = end_.regained - regained_;
-    if (!(std::abs(other.a) * std::exp(-stick_tau_ / times.relaxation) > kSame * std::abs(z0))) break;
+    const double most = std::max(std::abs(other.a), other.v.cwiseAbs().maxCoeff());
+    // What is left of it in the middle of the stick is the most that a cycle shows.
+    if (!(most * std::exp(-0.5 * stick_tau_ / times.relaxation) > kSame * std::abs(z0))) break;
     regained_ += other / (1.0 - left);
   }
 }
@@ -212,28 +212,71 @@ std::vector<SlipPart> RelaxingSlip::parts() const {
   return parts;
 }
 
-std::optional<RelaxingPeriod> relaxing_period(double z0, double zeta, double share, double time) {
-  constexpr int kMostRounds = 20;  // of a typical cycle that becomes its own
-  constexpr double kSharp = 1e-10;
+namespace {
+
+/// Slip time, period and trough of slips that repeat: the typical cycle becomes its own.
+std::optional<std::array<double, 3>> repeated(const std::array<double, 4>& numbers) {
+  constexpr int kMostRounds = 200;
+  constexpr double kSharp = 1e-12;
+  const auto [z0, zeta, share, time] = numbers;
   RelaxingSlip::Times times{time, std::numbers::pi, std::numbers::pi + 2.0 * z0};
   for (int round = 0; round < kMostRounds; ++round) {
     const RelaxingSlip slip(z0, zeta, share, times);
     if (!slip.resticks()) return std::nullopt;
-    const double longest = 2.0 * (z0 - slip.end_force()[0]) / (1.0 - share);  // of the late slope alone, once over
+    const double trough = slip.end_force();
+    const double longest = 2.0 * (z0 - trough) / (1.0 - share);  // twice the stick by the slope at rest
     const double begin = slip.tau_end();
-    const double period = root_between([&](double tau) { return slip.at(tau).z[0] - z0; }, begin, begin + longest);
-    const bool is_sharp = std::abs(period - times.period) < kSharp * period;
+    const double onset = z0;
+    const double period =
+        root_between([&slip, onset](double tau) { return slip.at(tau).z[0] - onset; }, begin, begin + longest);
+    const double change = std::abs(period - times.period);
     times.slip = begin;
     times.period = period;
-    if (!is_sharp) continue;
-    RelaxingPeriod result{slip.end_tau(), {period}, slip.end_force()};
-    const RelaxingSlip::Point onset = slip.at(period);  // where the force is z0 again
-    for (std::size_t p = 1; p < result.period.size(); ++p) {
-      result.period[p] = ((p == 1 ? 1.0 : 0.0) - onset.z[p]) / onset.d_tau;
-    }
-    return result;
+    if (change < kSharp * period) return std::array{begin, period, trough};
   }
   return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<RelaxingPeriod> relaxing_period(double z0, double zeta, double share, double time) {
+  const std::array<double, 4> numbers{z0, zeta, share, time};
+  const auto found = repeated(numbers);
+  if (!found) return std::nullopt;
+  RelaxingPeriod result{{(*found)[0]}, {(*found)[1]}, {(*found)[2]}};
+  const std::array<RelaxingSlip::Column*, 3> columns{&result.slip, &result.period, &result.trough};
+  for (std::size_t p = 0; p < numbers.size(); ++p) {
+    // Small enough for a share that must not fall below 0, and far above the sharpness of the solution.
+    const double step = 1e-4 * std::max(std::abs(numbers[p]), 0.01);
+    std::array<double, 4> above = numbers;
+    std::array<double, 4> below = numbers;
+    above[p] += step;
+    below[p] -= step;
+    const auto high = repeated(above);
+    const auto low = repeated(below);
+    if (!high || !low) return std::nullopt;
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      (*columns[i])[p + 1] = ((*high)[i] - (*low)[i]) / (2.0 * step);
+    }
+  }
+  return result;
+}
+
+double relaxing_critical_lambda(double zeta, double share, double time, double near) {
+  constexpr double kFarthest = 8.0;
+  constexpr double kSharp = 1e-6;
+  const auto repeats = [&](double lambda) {
+    return lambda > 2.0 * zeta && repeated({lambda - 2.0 * zeta, zeta, share, time}).has_value();
+  };
+  double low = near;
+  double high = near;
+  while (low > near / kFarthest && repeats(low)) low /= 1.2;
+  while (high < near * kFarthest && !repeats(high)) high *= 1.2;
+  while (high > (1.0 + kSharp) * low) {
+    const double middle = std::sqrt(low * high);
+    (repeats(middle) ? high : low) = middle;
+  }
+  return high;
 }
 
 }  // namespace slipfit::model

@@ -9,13 +9,15 @@
 #include <optional>
 #include <vector>
 
+#include "model/root_between.hpp"
 #include "model/slip_series.hpp"
+#include "model/weakening_slide.hpp"
 #include "slipfit/core/recording.hpp"
 
 namespace slipfit::model {
 
-/// What a spring that relaxes in the time t_r regains in a stick, A / (s k V t_r) of docs/model.md (25b), where slips
-/// repeat: the spring is moved back by V times the period in each slip, along half a period of a cosine.
+/// Returns what a spring that relaxes in the time t_r regains in a stick, A / (s k V t_r) of docs/model.md (25b), where
+/// slips repeat: the spring is moved back by V times the period in each slip, along half a period of a cosine.
 /// `period`, `slip`: times over t_r, above 0. Numbers, or jets of them.
 template <class Number>
 Number regained_in_stick(const Number& period, const Number& slip) {
@@ -25,26 +27,24 @@ Number regained_in_stick(const Number& period, const Number& slip) {
   return period * lasting / (1.0 - exp(-period));
 }
 
-/// The oscillator that a slip on a spring which relaxes resembles: that of the complex roots of (25c), in units of w_n.
+/// Holds the oscillator of the complex roots of docs/model.md (25c), which a slip on a spring that relaxes resembles,
+/// in units of w_n.
 template <class Number>
 struct RelaxedOscillator {
   Number omega, zeta;
 };
-/// `share`: s; `time`: w_n t_r, above 0. The relaxed share dies out by itself, at the real root.
+/// Returns that oscillator; `share` is s, and `time`, w_n t_r, is above 0. The share that relaxes dies out at the real
+/// root.
 template <class Number>
 RelaxedOscillator<Number> relaxed_oscillator(const Number& zeta, const Number& share, const Number& time) {
   using std::sqrt;
-  constexpr int kMostSteps = 60;
-  // r^3 + (2 zeta + 1/t) r^2 + (1 + 2 zeta / t) r + (1 - s) / t = 0, r = -rate
-  const Number rate_of_spring = 1.0 / time;
-  const Number second = 2.0 * zeta + rate_of_spring;
-  const Number first = 1.0 + 2.0 * zeta * rate_of_spring;
-  const Number last = (1.0 - share) * rate_of_spring;
-  Number rate = last / first;
-  for (int step = 0; step < kMostSteps; ++step) {
-    const Number value = ((second - rate) * rate - first) * rate + last;
-    rate = rate - value / ((2.0 * second - 3.0 * rate) * rate - first);
-  }
+  const Number second = 2.0 * zeta + 1.0 / time;
+  const Number first = 1.0 + 2.0 * zeta / time;
+  const Number last = (1.0 - share) / time;
+  // The one real root r^3 - second r^2 + first r - last = 0, then a Newton step for its derivatives.
+  const auto cubic = [&](const auto& rate) { return ((rate - second) * rate + first) * rate - last; };
+  const double root = root_between([&](double rate) { return value_of(cubic(Number(rate))); }, 0.0, value_of(second));
+  const Number rate = root - cubic(Number(root)) / value_of(Number((3.0 * root - 2.0 * second) * root + first));
   const Number omega = sqrt(last / rate);
   return {omega, 0.5 * (second - rate) / omega};
 }
@@ -74,9 +74,8 @@ class RelaxingSlip {
   /// Force above F_k at the end of the slip, less tau_end(): the stick that follows, were it straight, at tau = 0.
   [[nodiscard]] double intercept() const { return end_.z.a - tau_end_; }
 
-  /// The end of the slip and the force of the spring there.
-  [[nodiscard]] Column end_tau() const { return column_of(end_.tau); }
-  [[nodiscard]] Column end_force() const { return column_of(end_.z); }
+  /// Returns the force of the spring at the end of the slip.
+  [[nodiscard]] double end_force() const { return end_.z.a; }
 
   /// The force in this view at any tau from the stick before the slip to the stick after it.
   [[nodiscard]] Point at(double tau) const;
@@ -128,10 +127,13 @@ class RelaxingSlip {
 struct RelaxingPeriod {
   RelaxingSlip::Column slip{}, period{}, trough{};
 };
-/// `time`: w_n t_r. Empty where the body does not stick again.
+/// Returns these slips; `time` is w_n t_r. The result is empty where the body does not stick again.
 std::optional<RelaxingPeriod> relaxing_period(double z0, double zeta, double share, double time);
 
-/// What has the derivatives of a column, for parameters that are numbers with derivatives themselves.
+/// Returns the least lambda = z0 + 2 zeta at which slips repeat; `near`: a value near it.
+double relaxing_critical_lambda(double zeta, double share, double time, double near);
+
+/// Returns the value of a column with the derivatives of the four parameters, which are numbers with derivatives.
 template <class Number>
 Number composed(const RelaxingSlip::Column& column, const Number& z0, const Number& zeta, const Number& share,
                 const Number& time) {

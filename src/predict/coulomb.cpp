@@ -108,8 +108,16 @@ CriticalPoint coulomb_critical_point(const ModelEstimate& model, const Propagati
   const double slope = model::restick_margin(at, ceres::Jet<double, 1>(p.damping_ratio.a)).v[0];
   const Jet critical = Jet(solution) - model::restick_margin(Jet(solution), p.damping_ratio) / slope;
   // V_c = w_n (F_s - F_k) / (k lambda_c). docs/model.md (6)
-  return {propagation.positive(critical),
-          propagation.positive(p.omega_rad_per_s * p.difference_N / (p.stiffness_N_per_m * critical))};
+  Jet speed = p.omega_rad_per_s * p.difference_N / (p.stiffness_N_per_m * critical);
+  if (!model.relaxing) return {propagation.positive(critical), propagation.positive(speed)};
+  // The oscillator of the slip is near the exact end, and changes as that does.
+  const ModelJets spring(model);
+  const Jet slip_speed = spring.omega_rad_per_s * spring.difference_N / spring.stiffness_N_per_m;
+  const double exact = model::relaxing_critical_lambda(model.damping_ratio, model.relaxing->share,
+                                                       model.natural_frequency_rad_per_s * model.relaxing->time_s,
+                                                       slip_speed.a / speed.a);
+  speed *= slip_speed.a / exact / speed.a;
+  return {propagation.positive(slip_speed / speed), propagation.positive(speed)};
 }
 
 MotionJets coulomb_motion_at(const ModelEstimate& model, double speed_m_per_s) {

@@ -113,6 +113,10 @@ BlockFit displaced(BlockFit fit) {
   fit.parameters.values(kLogFrequency) -= 0.02;
   fit.parameters.values(kDamping) += 0.01;
   if (fit.solves_for(kFrictionSlope)) fit.parameters.values(kFrictionSlope) += 0.004;
+  if (fit.solves_for(kRelaxation)) {
+    fit.parameters.values(kRelaxation) += 0.02;
+    fit.parameters.values(kRelaxationTime) += 0.05;
+  }
   if (fit.solves_for(kSlipDistance)) fit.parameters.values(kSlipDistance) += 0.03;
   for (Local& local : fit.parameters.cycles) local[1] *= 0.98;
   return fit;
@@ -161,6 +165,29 @@ TEST_CASE("a sweep gives back the parameters of every law behind every sensor in
     if (coordinate == kDifference) continue;
     CAPTURE(coordinate);
     CHECK(recordings.front().parameters.values(coordinate) == Approx(truth(coordinate)).margin(margin));
+  }
+}
+
+TEST_CASE("a sweep gives back the parameters of a spring that relaxes behind every sensor in either view") {
+  const ForceView view = GENERATE(ForceView::Spring, ForceView::Transmitted);
+  const double time_s = GENERATE(0.15, 0.6);
+  const Instrument instrument = any_instrument();
+  CAPTURE(view == ForceView::Spring, time_s, instrument.lag_s, instrument.average_s);
+  Coordinates truth = true_values(FrictionLaw::Coulomb);
+  truth(kRelaxation) = 0.3;
+  truth(kRelaxationTime) = std::log(time_s);
+  std::vector<BlockFit> recordings;
+  for (const double speed_m_per_s : {0.004, 0.01, 0.025}) {
+    Scales scales = scales_of(FrictionLaw::Coulomb, view, instrument, speed_m_per_s, true);
+    const double stick_s = 1.8 * kOnsetForce / kStiffness / speed_m_per_s;
+    scales.relaxing = RelaxingCycles{3.3, 3.3 + kOmega * stick_s, 10.0};
+    recordings.push_back(displaced(exact(scales, truth)));
+  }
+  REQUIRE(std::isfinite(solve_together(recordings, {}, {{}, false, false, 200, 1e-12})));
+  for (const Coordinate coordinate : recordings.front().columns().coordinates()) {
+    if (coordinate == kDifference) continue;
+    CAPTURE(coordinate);
+    CHECK(recordings.front().parameters.values(coordinate) == Approx(truth(coordinate)).margin(1e-6));
   }
 }
 

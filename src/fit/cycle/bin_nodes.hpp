@@ -8,8 +8,8 @@
 
 namespace slipfit::fit {
 
-/// Times within a stick bin at which a smooth curve gives its mean and its least-squares slope over the samples of the
-/// bin, taken as evenly spread: Gauss's nodes over a width whose centred square is that of the samples.
+/// Holds the times within a stick bin at which a smooth curve gives its mean and its least-squares slope over the
+/// samples of the bin, taken as evenly spread: Gauss's nodes over a width whose centred square is that of the samples.
 class BinNodes {
  public:
   struct Node {

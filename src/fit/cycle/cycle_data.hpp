@@ -40,8 +40,8 @@ inline double shown_beyond_s(const SensorTimes& sensor) {
   return 8.0 * sensor.lag_s + 0.5 * sensor.average_s;
 }
 
-/// The typical cycle of a recording on a spring that relaxes, from which the force that is still relaxing at an onset
-/// follows: times in units of 1 / w_n, at the w_n that the fit begins with.
+/// Holds the typical cycle of a recording on a spring that relaxes, from which the force that is still relaxing at an
+/// onset follows. Its times are in units of 1 / w_n, at the w_n that the fit begins with.
 struct RelaxingCycles {
   double slip = 1.0;
   double period = 1.0;

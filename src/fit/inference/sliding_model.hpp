@@ -11,7 +11,7 @@ struct Reload {
   Jet force_N, length_m;
 };
 
-/// A spring that relaxes: the share of k and the time.
+/// Holds the share of k that relaxes and the time in which it does.
 struct Relaxation {
   Jet share, time_s;
 };

@@ -59,6 +59,7 @@ BlockFit BlockFit::with_scales(const Scales& scales) const {
 
 void BlockFit::start_at(const Coordinates& start) {
   parameters.values.head<kOfSlip>() = start.head<kOfSlip>();
+  parameters.values.segment<2>(kRelaxation) = start.segment<2>(kRelaxation);
   if (start(kReloadForce) != 0.0) parameters.values.segment<2>(kReloadForce) = start.segment<2>(kReloadForce);
 }
 

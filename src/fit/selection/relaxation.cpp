@@ -23,7 +23,7 @@ namespace {
 /// Times of relaxation to begin with, between the shortest stick of the sweep (0) and the longest (1), in logarithms.
 constexpr std::array kStartTimes{-0.3, 0.2, 0.6, 1.0};
 constexpr double kStartRelaxation = 0.3;
-constexpr int kRounds = 2;            // of sticks between the slips of the solution before
+constexpr int kRounds = 2;            // each with the typical cycles of the solution before
 constexpr double kLongestTime = 2.0;  // of the longest stick: what relaxes later is at rest in all recordings
 
 double speed_of(const DampedFit& fit) {
@@ -148,7 +148,7 @@ std::optional<Relaxing> best_of_starts(const SweepData& data, const HeldParamete
   for (const double place : kStartTimes) {
     const double time_s = *shortest * std::pow(*longest / *shortest, place);
     SweepData relaxing = relaxing_in(time_s, kLongestTime * *longest, data);
-    std::optional<SweepSolution> next = fit_rig(relaxing, held);
+    std::optional<SweepSolution> next = fit_rig(relaxing, held, RigFit::Rough);
     if (!next || (best && !(next->chi2 < best->solution.chi2))) continue;
     best.emplace(std::move(relaxing), *std::move(next));
   }
@@ -172,7 +172,7 @@ double gain_of(const SweepSolution& fit, const SweepSolution& other) {
 SweepData with_relaxation(SweepData data, std::span<const SweepRecording> recordings, const HeldParameters& held) {
   if (!may_relax(data, held)) return data;
   const std::optional<SweepSolution> plain = fit_rig(data, held);
-  const std::optional<SweepSolution> growing = fit_rig(data, held, true);
+  const std::optional<SweepSolution> growing = fit_rig(data, held, RigFit::StiffnessGrows);
   if (!plain || !growing) return data;
   std::optional<Relaxing> best = best_of_starts(data, held);
   if (data.average) {

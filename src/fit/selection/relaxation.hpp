@@ -8,8 +8,9 @@
 
 namespace slipfit::fit {
 
-/// The recordings with a spring that relaxes (docs/model.md section 10) where that explains them better than sticks
-/// that are straight or rise over a displacement; else as they are. Its time is the same at all speeds.
+/// Returns the recordings with a spring that relaxes (docs/model.md section 10) where that explains them better than
+/// sticks that are straight or rise over a displacement, and than k that goes with the speed; otherwise the recordings
+/// are returned as they are. The time of relaxation is the same at all speeds.
 SweepData with_relaxation(SweepData data, std::span<const SweepRecording> recordings, const HeldParameters& held);
 
 }  // namespace slipfit::fit

@@ -45,7 +45,13 @@ class SweepFitter {
  public:
   SweepFitter(const SweepData& data, const HeldParameters& held) : data_(data), fixed_(held) {}
 
-  [[nodiscard]] std::optional<SweepSolution> fit_rig(bool grows) const { return fit_coulomb({false, false}, grows); }
+  [[nodiscard]] std::optional<SweepSolution> fit_rig(RigFit kind) const {
+    if (kind != RigFit::Rough) return fit_coulomb({false, false}, kind == RigFit::StiffnessGrows);
+    SweepSolution start = start_of(data_, {false, false}, FrictionLaw::Coulomb, data_.fitted);
+    set_start(start);
+    start.chi2 = solve(start, held_of(fixed_), kSweepQuickIterations, kSweepRough);
+    return std::isfinite(start.chi2) ? std::optional(std::move(start)) : std::nullopt;
+  }
 
   [[nodiscard]] std::optional<SweepFits> fit() const {
     constexpr Sharing kAll{true, true};
@@ -186,8 +192,8 @@ class SweepFitter {
 
 }  // namespace
 
-std::optional<SweepSolution> fit_rig(const SweepData& data, const HeldParameters& held, bool stiffness_grows) {
-  return SweepFitter(data, held).fit_rig(stiffness_grows);
+std::optional<SweepSolution> fit_rig(const SweepData& data, const HeldParameters& held, RigFit kind) {
+  return SweepFitter(data, held).fit_rig(kind);
 }
 
 std::optional<SweepFits> solve_sweep(const SweepData& data, const FitOptions& options) {

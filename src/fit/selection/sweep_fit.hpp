@@ -19,8 +19,15 @@ struct SweepFits {
   bool depends_on_speed = false;  ///< velocity explains more than chance would
 };
 
-/// Coulomb friction that the recordings do not share: they share the rig alone, with k that goes with the speed or not.
-std::optional<SweepSolution> fit_rig(const SweepData& data, const HeldParameters& held, bool stiffness_grows = false);
+/// Says how a fit of the rig is done.
+enum class RigFit {
+  Sharp,
+  Rough,          ///< near enough to the minimum to compare starts
+  StiffnessGrows  ///< sharp, with k that goes with the speed
+};
+
+/// Fits Coulomb friction that the recordings do not share: they share the rig alone. Empty without a minimum.
+std::optional<SweepSolution> fit_rig(const SweepData& data, const HeldParameters& held, RigFit kind = RigFit::Sharp);
 
 /// Both laws, with everything shared between the recordings that the data agree with. Empty where no start converges.
 std::optional<SweepFits> solve_sweep(const SweepData& data, const FitOptions& options);
