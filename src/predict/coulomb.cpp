@@ -78,13 +78,13 @@ std::optional<CycleJets> relaxing_cycle(const ModelEstimate& model, double speed
 
 }  // namespace
 
-double coulomb_end_m_per_s(const ModelEstimate& stated) {
-  const ModelEstimate model = in_slip(stated);
-  if (!(model.damping_ratio > 0.0)) return HUGE_VAL;
-  if (model.damping_ratio >= 1.0) return 0.0;
+double coulomb_end_m_per_s(const ModelEstimate& model) {
+  const ModelEstimate body = in_slip(model);
+  if (!(body.damping_ratio > 0.0)) return HUGE_VAL;
+  if (body.damping_ratio >= 1.0) return 0.0;
   // docs/model.md (6)
-  return model.natural_frequency_rad_per_s * model.friction_difference_N /
-         (model.stiffness_N_per_m * critical_lambda(model.damping_ratio));
+  return body.natural_frequency_rad_per_s * body.friction_difference_N /
+         (body.stiffness_N_per_m * critical_lambda(body.damping_ratio));
 }
 
 CriticalPoint coulomb_critical_point(const ModelEstimate& model, const Propagation& propagation) {

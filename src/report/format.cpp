@@ -229,4 +229,8 @@ std::string Table::text() const {
   return text;
 }
 
+std::string value_text(const EstimateRow& row) {
+  return row.unit.empty() || row.value == "-" ? row.value : row.value + " " + row.unit;
+}
+
 }  // namespace slipfit

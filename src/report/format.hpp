@@ -94,4 +94,7 @@ class Table {
   std::vector<std::vector<std::string>> rows_;
 };
 
+/// Returns the value of a row with its unit.
+[[nodiscard]] std::string value_text(const EstimateRow& row);
+
 }  // namespace slipfit

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "report/model_terms.hpp"
 #include "report/names.hpp"
 #include "report/quantities.hpp"
 
@@ -194,7 +195,11 @@ Json model_json(const FitResult& fit, ForceQuantity quantity) {
       {"conditional_on", fit.conditional_on},
       {"candidates", array_of(fit.candidates, [quantity](const Candidate& c) { return candidate_json(c, quantity); })},
       {"residual", std::move(residual)},
-      {"degrees_of_freedom", fit.estimate ? Json(fit.estimate->degrees_of_freedom) : Json()}};
+      {"degrees_of_freedom", fit.estimate ? Json(fit.estimate->degrees_of_freedom) : Json()},
+      {"terms", array_of(model_terms(fit), [](const ModelTerm& term) {
+         const auto key_of = [](ParameterId id) { return Json(info(id).key); };
+         return Json{{"code", term.code}, {"parameters", array_of(term.parameters, key_of)}, {"text", term.text}};
+       })}};
 }
 
 Json parameters_json(const FitResult& fit) {

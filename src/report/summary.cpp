@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "analysis/rules.hpp"
+#include "report/model_terms.hpp"
 #include "report/names.hpp"
 #include "report/quantities.hpp"
 #include "report/text_sections.hpp"
@@ -37,10 +38,6 @@ std::string sentence(std::string text) {
 /// The text up to its first semicolon where it is longer than two lines: `--details` has the whole.
 std::string shortened(const std::string& text) {
   return text.size() > 2 * (kLineWidth - 4) ? text.substr(0, text.find(';')) : text;
-}
-
-std::string value_text(const EstimateRow& row) {
-  return row.unit.empty() || row.value == "-" ? row.value : row.value + " " + row.unit;
 }
 
 /// Collects rows and footnotes, then the lines below them until the screen is full.
@@ -162,15 +159,9 @@ constexpr std::array kHeadlineParameters{ParameterId::Stiffness,
                                          ParameterId::Mass,
                                          ParameterId::DampingRatio,
                                          ParameterId::Alpha,
-                                         ParameterId::Ageing};
-
-/// Parameters of effects that the data require, and what the summary calls the effect.
-constexpr auto kTerms = std::to_array<std::pair<ParameterId, std::string_view>>(
-    {{ParameterId::SensorAverage, "sensor averaging over"},
-     {ParameterId::SlipDistance, "friction that weakens over a slip distance of"},
-     {ParameterId::ReloadForce, "force recovery after a slip of"},
-     {ParameterId::Relaxation, "a spring that relaxes by a share of"},
-     {ParameterId::StiffnessExponent, "k proportional to V to the power"}});
+                                         ParameterId::Ageing,
+                                         ParameterId::Relaxation,
+                                         ParameterId::RelaxationTime};
 
 bool is_headline(ParameterId id) {
   return std::ranges::find(kHeadlineParameters, id) != kHeadlineParameters.end();
@@ -194,12 +185,8 @@ std::string not_determined(const FitResult& fit, const Screen& screen) {
 
 std::string terms_text(const FitResult& fit) {
   std::string terms;
-  for (const auto& [id, words] : kTerms) {
-    const Parameter* const parameter = fit.find(id);
-    if (parameter == nullptr || !parameter->estimate.value) continue;
-    const EstimateRow row = estimate_row(parameter->estimate, std::string(info(id).unit));
-    terms += fmt::format("{}{} {}{}", terms.empty() ? "" : "; ", words, value_text(row),
-                         row.interval.empty() ? "" : " " + row.interval);
+  for (const ModelTerm& term : model_terms(fit)) {
+    if (!term.is_headline) terms += (terms.empty() ? "" : "; ") + term.text;
   }
   return terms.empty() ? terms : sentence("The model includes " + terms);
 }

@@ -150,7 +150,7 @@ std::optional<Relaxing> best_of_starts(const SweepData& data, const HeldParamete
     SweepData relaxing = relaxing_in(time_s, kLongestTime * *longest, data);
     std::optional<SweepSolution> next = fit_rig(relaxing, held, RigFit::Rough);
     if (!next || (best && !(next->chi2 < best->solution.chi2))) continue;
-    best.emplace(std::move(relaxing), *std::move(next));
+    best = Relaxing{std::move(relaxing), *std::move(next)};
   }
   for (int round = 0; best && round < kRounds; ++round) {
     best->data = at_solution(best->solution, std::move(best->data));
