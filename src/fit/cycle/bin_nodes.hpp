@@ -35,7 +35,7 @@ class BinNodes {
   }
 
   [[nodiscard]] std::span<const Node> nodes() const& { return {nodes_.data(), count_}; }
-  std::span<const Node> nodes() const&& = delete;
+  [[nodiscard]] std::span<const Node> nodes() const&& = delete;
 
  private:
   std::array<Node, 5> nodes_{};

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 #include "fit/cycle/bin_nodes.hpp"
@@ -274,12 +275,14 @@ template <class Law>
 void CycleModel::fill(const Law& law, const CycleFrame& frame, const std::optional<CycleRise>& rise,
                       const Rows& rows) const {
   using Point = typename Law::Point;
+  using ByLaw = decltype(std::declval<const Law&>().by_law(std::declval<const Point&>()));
+  using Ingredients = Rows::Ingredients<std::tuple_size_v<ByLaw>>;
   Rows::Place next = rows.first();
   const bool is_lag = scales_.free_time == FreeTime::Lag;
   const auto ingredients = [&](double tau, const Point& p) {
     // What depends on w_n at fixed tau are the times of the sensor: what is not the average's is the lag's.
     const double by_log_time = is_lag ? law.by_log_sensor(p) - p.d_log_average : p.d_log_average;
-    return Rows::Ingredients{p.z, p.d_tau, p.d_z0, p.d_tau * tau + law.by_log_omega(p), by_log_time, law.by_law(p)};
+    return Ingredients{p.z, p.d_tau, p.d_z0, p.d_tau * tau + law.by_log_omega(p), by_log_time, law.by_law(p)};
   };
   typename Law::Samples samples(law, frame.omega_rad_per_s * even_step_s_);
   for (const double time_s : data_->time_s) {
@@ -291,7 +294,7 @@ void CycleModel::fill(const Law& law, const CycleFrame& frame, const std::option
       next.put(ingredients(tau, p));
       // The slope of a stick is k V: w_n in these units, so that it does not change with w_n.
       const double w = frame.omega_rad_per_s;
-      next.put(Rows::Ingredients{w, 0.0, 0.0, w, 0.0, decltype(law.by_law(p)){}});
+      next.put(Ingredients{w, 0.0, 0.0, w, 0.0, ByLaw{}});
     };
     const auto tau_of = [&](const StickBin& bin) { return frame.tau_at(bin.time_s); };
     for (const StickBin& bin : data_->bins_before) put_bin(tau_of(bin), law.before_slip(tau_of(bin)));
@@ -299,12 +302,12 @@ void CycleModel::fill(const Law& law, const CycleFrame& frame, const std::option
   } else {
     for (const auto* bins : {&data_->bins_before, &data_->bins_after}) {
       for (const StickBin& bin : *bins) {
-        decltype(ingredients(0.0, Point{})) mean;
-        decltype(mean) slope;
+        Ingredients mean;
+        Ingredients slope;
         const BinNodes in_bin(bin);
         for (const BinNodes::Node& node : in_bin.nodes()) {
           const double tau = frame.tau_at(node.time_s);
-          const auto here = ingredients(tau, law.at(tau));
+          const Ingredients here = ingredients(tau, law.at(tau));
           mean.add(node.mean, here);
           slope.add(node.slope_per_s, here);
         }
