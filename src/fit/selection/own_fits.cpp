@@ -1,12 +1,12 @@
 #include "fit/selection/own_fits.hpp"
 
 #include <algorithm>
-#include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 #include <cstddef>
 
 #include "core/fit_thresholds.hpp"
 #include "core/quantile.hpp"
+#include "fit/inference/weighted_mean.hpp"
 #include "fit/selection/average_term.hpp"
 #include "fit/selection/damped_fit.hpp"
 #include "fit/selection/finish.hpp"
@@ -19,24 +19,15 @@ namespace {
 
 /// Mean by their errors; empty where they differ by more than these.
 std::optional<FittedAverage> mean_of(const std::vector<FittedAverage>& averages) {
-  double weights = 0.0;
-  double sum = 0.0;
-  for (const FittedAverage& one : averages) {
-    const double weight = 1.0 / (one.standard_error_s * one.standard_error_s);
-    weights += weight;
-    sum += weight * one.seconds;
-  }
-  const double mean_s = sum / weights;
-  double square = 0.0;
-  for (const FittedAverage& one : averages) square += std::pow((one.seconds - mean_s) / one.standard_error_s, 2);
-  if (averages.size() > 1) {
-    const boost::math::chi_squared_distribution<double> by_chance(static_cast<double>(averages.size()) - 1.0);
-    if (boost::math::cdf(boost::math::complement(by_chance, square)) < thresholds::kShareChance) return std::nullopt;
-  }
+  std::vector<Measured> measured;
+  measured.reserve(averages.size());
+  for (const FittedAverage& one : averages) measured.push_back({one.seconds, one.standard_error_s});
+  const WeightedMean mean = weighted_mean(measured);
+  if (mean.chance < thresholds::kShareChance) return std::nullopt;
   // Most of each error is the unknown shape of the kernel, which all share: the mean is known no better than one.
   double error_s = averages.front().standard_error_s;
   for (const FittedAverage& one : averages) error_s = std::min(error_s, one.standard_error_s);
-  return FittedAverage{mean_s, error_s};
+  return FittedAverage{mean.value, error_s};
 }
 
 /// Returns the averaging, not stated by the user, that one recording shows; empty where it does not determine it.
@@ -51,15 +42,12 @@ std::optional<Smoothing> rounding_of(const SweepRecording& sweep, const DampedFi
 
 /// Mean of the lengths that the recordings find for the rise after a slip, by their errors; empty where none does.
 std::optional<double> mean_length_m(const std::vector<std::optional<DampedFit>>& fits) {
-  double weights = 0.0;
-  double sum = 0.0;
+  std::vector<Measured> measured;
   for (const auto& fit : fits) {
     if (!fit || !fit->blocks.level().reloading) continue;
-    const double weight = 1.0 / fit->uncertainty.covariance(kReloadLength, kReloadLength);
-    weights += weight;
-    sum += weight * fit->blocks.parameters.values(kReloadLength);
+    measured.push_back({fit->blocks.parameters.values(kReloadLength), error_of(*fit, kReloadLength)});
   }
-  return weights > 0.0 ? std::optional(std::exp(sum / weights)) : std::nullopt;
+  return measured.empty() ? std::nullopt : std::optional(std::exp(weighted_mean(measured).value));
 }
 
 class OwnFitter {
@@ -206,19 +194,17 @@ OwnFits with_free_rises(OwnFits own) {
 
 std::optional<double> common_rounding_s2(std::span<const SweepRecording> recordings,
                                          const std::vector<std::optional<DampedFit>>& fits) {
-  double weights = 0.0;
-  double sum = 0.0;
+  std::vector<Measured> measured;
   double longest_step_s = 0.0;
   for (std::size_t i = 0; i < recordings.size(); ++i) {
     const std::optional<Smoothing> seen = fits[i] ? rounding_of(recordings[i], *fits[i]) : std::nullopt;
     if (!seen || !(seen->standard_error_s2 > 0.0)) continue;
-    const double weight = std::pow(seen->standard_error_s2, -2);
-    weights += weight;
-    sum += weight * seen->variance_s2;
+    measured.push_back({seen->variance_s2, seen->standard_error_s2});
     longest_step_s = std::max(longest_step_s, recordings[i].recording.sample_interval_s());
   }
-  if (!(weights > 0.0)) return std::nullopt;
-  const Smoothing together{sum / weights, 1.0 / std::sqrt(weights)};
+  if (measured.empty()) return std::nullopt;
+  const WeightedMean mean = weighted_mean(measured);
+  const Smoothing together{mean.value, mean.standard_error};
   return together.exceeds_step(longest_step_s) ? std::optional(together.largest_variance_s2()) : std::nullopt;
 }
 

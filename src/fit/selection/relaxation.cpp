@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -12,6 +11,7 @@
 #include "core/quantile.hpp"
 #include "core/thresholds.hpp"
 #include "fit/inference/smoothing.hpp"
+#include "fit/inference/weighted_mean.hpp"
 #include "fit/selection/law_choice.hpp"
 #include "fit/selection/own_fits.hpp"
 #include "fit/selection/sweep_fit.hpp"
@@ -35,22 +35,15 @@ bool shows_rise(const DampedFit& fit) {
   return fit.blocks.level().reloading || std::any_of(fit.rivals.begin(), fit.rivals.end(), rises);
 }
 
-/// k differs between the recordings by more than its errors explain.
+/// Returns whether k differs between the recordings by more than its errors explain.
 bool stiffness_differs(const SweepData& data) {
-  double weights = 0.0;
-  double sum = 0.0;
-  double squares = 0.0;
+  std::vector<Measured> measured;
   for (const std::size_t i : data.fitted) {
-    const double error = error_of(*data.single[i], kLogStiffness);
-    if (!(error > 0.0)) return false;
-    const double value = data.single[i]->blocks.parameters.values(kLogStiffness);
-    weights += 1.0 / (error * error);
-    sum += value / (error * error);
-    squares += value * value / (error * error);
+    const DampedFit& fit = *data.single[i];
+    measured.push_back({fit.blocks.parameters.values(kLogStiffness), error_of(fit, kLogStiffness)});
+    if (!(measured.back().standard_error > 0.0)) return false;
   }
-  const boost::math::chi_squared_distribution<double> by_chance(static_cast<double>(data.fitted.size()) - 1.0);
-  return boost::math::cdf(boost::math::complement(by_chance, std::max(0.0, squares - sum * sum / weights))) <
-         thresholds::kLawChance;
+  return weighted_mean(measured).chance < thresholds::kLawChance;
 }
 
 bool may_relax(const SweepData& data, const HeldParameters& held) {
@@ -77,8 +70,8 @@ RelaxingCycles typical_cycles(const BlockFit& fit, double longest_s) {
   return {omega * median_slip_s(fit), omega * median_period_s(fit), longest_s};
 }
 
-/// The recordings, their springs relaxing in this time to begin with, their sticks else straight.
-SweepData relaxing_in(double time_s, double longest_s, SweepData data) {
+/// Returns the recordings with springs that relax, their sticks otherwise straight.
+SweepData relaxing_springs(double longest_s, SweepData data) {
   for (const std::size_t i : data.fitted) {
     data.single[i]->continuous = false;  // ramps that bend are not joined
     BlockFit& blocks = data.single[i]->blocks;
@@ -93,7 +86,6 @@ SweepData relaxing_in(double time_s, double longest_s, SweepData data) {
     blocks.parameters.values(kReloadForce) = blocks.parameters.values(kReloadLength) = 0.0;
     blocks.parameters.values(kLogStiffness) = secant;
     blocks.parameters.values(kRelaxation) = kStartRelaxation;
-    blocks.parameters.values(kRelaxationTime) = std::log(time_s);
   }
   return data;
 }
@@ -144,13 +136,14 @@ std::optional<Relaxing> best_of_starts(const SweepData& data, const HeldParamete
   std::vector<double> sticks_s;
   for (const std::size_t i : data.fitted) sticks_s.push_back(median_stick_s(data.single[i]->blocks));
   const auto [shortest, longest] = std::minmax_element(sticks_s.begin(), sticks_s.end());
+  SweepData relaxing = relaxing_springs(kLongestTime * *longest, data);
   std::optional<Relaxing> best;
   for (const double place : kStartTimes) {
-    const double time_s = *shortest * std::pow(*longest / *shortest, place);
-    SweepData relaxing = relaxing_in(time_s, kLongestTime * *longest, data);
+    const double log_time = std::log(*shortest) + place * std::log(*longest / *shortest);
+    for (const std::size_t i : data.fitted) relaxing.single[i]->blocks.parameters.values(kRelaxationTime) = log_time;
     std::optional<SweepSolution> next = fit_rig(relaxing, held, RigFit::Rough);
     if (!next || (best && !(next->chi2 < best->solution.chi2))) continue;
-    best = Relaxing{std::move(relaxing), *std::move(next)};
+    best = Relaxing{relaxing, *std::move(next)};
   }
   for (int round = 0; best && round < kRounds; ++round) {
     best->data = at_solution(best->solution, std::move(best->data));
@@ -161,7 +154,8 @@ std::optional<Relaxing> best_of_starts(const SweepData& data, const HeldParamete
   return best;
 }
 
-/// By how much less a fit of the rig misses, less the price of the parameters that it has more.
+/// Returns the gain in chi2 of one fit of the rig over another, in its own variance, less the price of its additional
+/// parameters.
 double gain_of(const SweepSolution& fit, const SweepSolution& other) {
   const double variance = std::max(1.0, fit.chi2 / fit.degrees_of_freedom);
   return (other.chi2 - fit.chi2) / variance - 2.0 * (freedom_of(fit) - freedom_of(other));
@@ -172,8 +166,7 @@ double gain_of(const SweepSolution& fit, const SweepSolution& other) {
 SweepData with_relaxation(SweepData data, std::span<const SweepRecording> recordings, const HeldParameters& held) {
   if (!may_relax(data, held)) return data;
   const std::optional<SweepSolution> plain = fit_rig(data, held);
-  const std::optional<SweepSolution> growing = fit_rig(data, held, RigFit::StiffnessGrows);
-  if (!plain || !growing) return data;
+  if (!plain) return data;
   std::optional<Relaxing> best = best_of_starts(data, held);
   if (data.average) {
     std::optional<Relaxing> instead = best_of_starts(without_average(data), held);
@@ -184,8 +177,10 @@ SweepData with_relaxation(SweepData data, std::span<const SweepRecording> record
   const auto exceeds = [&](const SweepSolution& other) {
     return gain_of(best->solution, other) > thresholds::kTierPrice;
   };
-  // A wrong speed or file bends what goes with the speed, too, but leaves a misfit.
-  if (!best || is_misfit(best->solution) || !exceeds(*plain) || !exceeds(*growing)) return data;
+  // A wrong speed or a wrong file also makes k vary with the speed, but then the fit leaves a misfit.
+  if (!best || is_misfit(best->solution) || !exceeds(*plain)) return data;
+  const std::optional<SweepSolution> growing = fit_rig(data, held, RigFit::StiffnessGrows);
+  if (!growing || !exceeds(*growing)) return data;
   for (std::size_t r = 0; r < data.fitted.size(); ++r) {
     const std::size_t i = data.fitted[r];
     DampedFit& fit = *best->data.single[i];
