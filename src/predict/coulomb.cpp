@@ -20,9 +20,9 @@ struct Body {
 };
 
 /// Returns the body with F_k = 0: only the difference matters here.
-Body body_of(const ModelEstimate& model) {
-  auto slider = Slider::create(model.stiffness_N_per_m, model.natural_frequency_rad_per_s, model.damping_ratio);
-  auto friction = Friction::create(model.friction_difference_N, 0.0);
+Body body_of(const ModelJets& p) {
+  auto slider = Slider::create(p.stiffness_N_per_m.a, p.omega_rad_per_s.a, p.damping_ratio.a);
+  auto friction = Friction::create(p.difference_N.a, 0.0);
   assert(slider && friction);
   return {std::move(slider).value(), std::move(friction).value()};
 }
@@ -38,17 +38,8 @@ Jet jet_of(const Sensitive& quantity, const ModelEstimate& model) {
   return jet;
 }
 
-/// The body that moves as a body on a spring that relaxes does in a slip; the same body where the spring does not
-/// relax.
-ModelEstimate in_slip(ModelEstimate model) {
-  if (!model.relaxing) return model;
-  const auto [omega, zeta] = model::relaxed_oscillator(model.damping_ratio, model.relaxing->share,
-                                                       model.natural_frequency_rad_per_s * model.relaxing->time_s);
-  model.stiffness_N_per_m *= omega * omega;
-  model.natural_frequency_rad_per_s *= omega;
-  model.damping_ratio = zeta;
-  return model;
-}
+/// Returns the elastic body that moves in a slip as a body on a spring that relaxes; the same body where the spring
+/// does not relax.
 ModelJets jets_in_slip(const ModelEstimate& model) {
   ModelJets p(model);
   if (!model.relaxing) return p;
@@ -62,29 +53,23 @@ ModelJets jets_in_slip(const ModelEstimate& model) {
 
 std::optional<CycleJets> relaxing_cycle(const ModelEstimate& model, double speed_m_per_s) {
   const ModelJets p(model);
-  const Jet unit_N = p.stiffness_N_per_m * speed_m_per_s / p.omega_rad_per_s;
-  const Jet z0 = p.difference_N / unit_N - 2.0 * p.damping_ratio;
-  const Jet time = p.omega_rad_per_s * p.relaxation_time_s;
-  const auto limit = model::relaxing_period(z0.a, p.damping_ratio.a, p.relaxation.a, time.a);
+  const model::RelaxingBody<Jet> body{p.stiffness_N_per_m, p.omega_rad_per_s, p.damping_ratio,
+                                      p.difference_N,      p.relaxation,      p.relaxation_time_s};
+  const auto limit = body.cycle_at(speed_m_per_s);
   if (!limit) return std::nullopt;
-  const auto of = [&](const model::RelaxingSlip::Column& column) {
-    return model::composed(column, z0, p.damping_ratio, p.relaxation, time);
-  };
-  const Jet slip_s = of(limit->slip) / p.omega_rad_per_s;
-  const Jet period_s = of(limit->period) / p.omega_rad_per_s;
-  return CycleJets{slip_s,      period_s - slip_s,         period_s, speed_m_per_s * period_s,
-                   z0 * unit_N, of(limit->trough) * unit_N};
+  return CycleJets{limit->slip_s,   limit->period_s - limit->slip_s,
+                   limit->period_s, speed_m_per_s * limit->period_s,
+                   limit->peak_N,   limit->trough_N};
 }
 
 }  // namespace
 
 double coulomb_end_m_per_s(const ModelEstimate& model) {
-  const ModelEstimate body = in_slip(model);
-  if (!(body.damping_ratio > 0.0)) return HUGE_VAL;
-  if (body.damping_ratio >= 1.0) return 0.0;
+  const ModelJets p = jets_in_slip(model);
+  if (!(p.damping_ratio.a > 0.0)) return HUGE_VAL;
+  if (p.damping_ratio.a >= 1.0) return 0.0;
   // docs/model.md (6)
-  return body.natural_frequency_rad_per_s * body.friction_difference_N /
-         (body.stiffness_N_per_m * critical_lambda(body.damping_ratio));
+  return p.omega_rad_per_s.a * p.difference_N.a / (p.stiffness_N_per_m.a * critical_lambda(p.damping_ratio.a));
 }
 
 CriticalPoint coulomb_critical_point(const ModelEstimate& model, const Propagation& propagation) {
@@ -94,14 +79,14 @@ CriticalPoint coulomb_critical_point(const ModelEstimate& model, const Propagati
     return by_draws(model, "the damping ratio cannot be distinguished from 0", coulomb_end_m_per_s(model),
                     [&](double share) { return quantile_of(ends, share); });
   }
-  if (!(in_slip(model).damping_ratio > 0.0)) {
+  const ModelJets p = jets_in_slip(model);
+  if (!(p.damping_ratio.a > 0.0)) {
     return {{0.0, std::nullopt, std::nullopt, {}}, unknown("without damping there is stick-slip at every speed")};
   }
-  if (in_slip(model).damping_ratio >= 1.0) {
+  if (p.damping_ratio.a >= 1.0) {
     const std::string reason = "no stick-slip at any speed: the damping ratio is not below 1";
     return {unknown(reason), {0.0, std::nullopt, std::nullopt, reason}};
   }
-  const ModelJets p = jets_in_slip(model);
   const double solution = critical_lambda(p.damping_ratio.a);
   // One Newton step in dual numbers: derivatives of the root by the implicit function theorem.
   const ceres::Jet<double, 1> at(solution, 0);
@@ -121,8 +106,8 @@ CriticalPoint coulomb_critical_point(const ModelEstimate& model, const Propagati
 }
 
 MotionJets coulomb_motion_at(const ModelEstimate& model, double speed_m_per_s) {
-  const auto [slider, friction] = body_of(in_slip(model));
   const ModelJets p = jets_in_slip(model);
+  const auto [slider, friction] = body_of(p);
   MotionJets motion;
   motion.regime = damped_motion(slider, friction, speed_m_per_s).regime;
   motion.total_damping_ratio = p.damping_ratio;

@@ -57,13 +57,9 @@ std::optional<SlidingModel::Cycle> SlidingModel::cycle(double speed_m_per_s, dou
   const Jet k = stiffness * growth;
   const Jet w = omega * sqrt(growth);  // of the same mass
   if (relaxation) {
-    const Jet z0 = load * difference_N * w / (k * speed_m_per_s) - 2.0 * zeta;
-    const Jet time = w * relaxation->time_s;
-    if (!(z0.a + 2.0 * zeta.a > 0.0) || !(std::abs(zeta.a) < 1.0)) return std::nullopt;
-    const auto limit = model::relaxing_period(z0.a, zeta.a, relaxation->share.a, time.a);
-    if (!limit) return std::nullopt;
-    const Jet period_s = model::composed(limit->period, z0, zeta, relaxation->share, time) / w;
-    return Cycle{period_s, period_s - model::composed(limit->slip, z0, zeta, relaxation->share, time) / w};
+    const model::RelaxingBody<Jet> body{k, w, zeta, load * difference_N, relaxation->share, relaxation->time_s};
+    const auto limit = body.cycle_at(speed_m_per_s);
+    return limit ? std::optional(Cycle{limit->period_s, limit->period_s - limit->slip_s}) : std::nullopt;
   }
   const model::SlipJets<Jet> slip(k, w, zeta, load * difference_N, load * slope, alpha, speed_m_per_s);
   const auto track = slip.solve();
