@@ -50,7 +50,7 @@ CycleFrame CycleModel::frame(const Coordinates& here, const double* local) const
 std::optional<CycleRise> CycleModel::rise(const Coordinates& shared) const {
   if (!level_->reloading) return std::nullopt;
   const double average_s = sensor_of(scales_, shared).average_s;
-  return CycleRise{scales_.force, shared(kReloadForce),
+  return CycleRise{scales_.force * shared(kReloadForce),
                    RiseAroundSlip(*level_->reloading, data_->slip, std::exp(shared(kReloadLength)), average_s)};
 }
 
@@ -159,11 +159,11 @@ class CycleModel::Rows {
   void add_rise(const CycleRise& rise) const {
     Index row = 0;
     const auto put = [&](const RiseAfterSlip::Share& share) {
-      const double by_strength = -rise.unit_force / scales_.noise * rows_.weight(row);
-      const double by_share = by_strength * rise.strength;
+      const double by_force = -scales_.force / scales_.noise * rows_.weight(row);
+      const double by_share = by_force * (*values_.shared)(kReloadForce);
       residuals_[row] += by_share * share.value;
       if (jacobian_ != nullptr) {
-        at(of(kReloadForce))[row] = by_strength * share.value;
+        at(of(kReloadForce))[row] = by_force * share.value;
         if (columns_.has(kReloadLength)) at(of(kReloadLength))[row] = by_share * share.by_log_length;
         if (scales_.free_time == FreeTime::Average) {
           at(of(kSensorTime))[row] += by_share * share.by_log_average * 0.5 / (*values_.shared)(kSensorTime);

@@ -124,12 +124,11 @@ struct CycleState : CycleFrame {
 
 /// The rise after slips around one slip.
 struct CycleRise {
-  double unit_force = 0.0;
-  double strength = 0.0;  ///< A / unit_force
+  double force = 0.0;  ///< A
   RiseAroundSlip share;
 
   /// Returns the contribution to the force.
-  [[nodiscard]] double at(double time_s) const { return unit_force * strength * share.at(time_s).value; }
+  [[nodiscard]] double at(double time_s) const { return force * share.at(time_s).value; }
 };
 
 /// The residuals of one cycle: (data - model) / noise for every sample around the slip, and two for each stick bin (its

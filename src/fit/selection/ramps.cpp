@@ -49,11 +49,10 @@ std::vector<StickBin> straightened(std::vector<StickBin> bins, const BlockFit& f
   }
   const std::optional<CycleRise> rise = fit.model(cycle).rise(fit.parameters.values);
   if (!rise) return bins;
-  const double force = rise->unit_force * rise->strength;
   for (StickBin& bin : bins) {
     const RiseAfterSlip::Line line = rise->share.over(bin);
-    bin.force -= force * line.mean.value;
-    bin.slope -= force * line.slope.value;
+    bin.force -= rise->force * line.mean.value;
+    bin.slope -= rise->force * line.slope.value;
   }
   return bins;
 }
