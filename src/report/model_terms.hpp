@@ -13,7 +13,6 @@ struct ModelTerm {
   std::string_view code;  ///< where a warning reports the effect, too, that of the warning
   std::vector<ParameterId> parameters;
   std::string text;
-  bool is_headline = false;  ///< its parameters are in the table of the text already
 };
 
 /// Returns the effects in the model of a fit.

@@ -186,7 +186,9 @@ std::string not_determined(const FitResult& fit, const Screen& screen) {
 std::string terms_text(const FitResult& fit) {
   std::string terms;
   for (const ModelTerm& term : model_terms(fit)) {
-    if (!term.is_headline) terms += (terms.empty() ? "" : "; ") + term.text;
+    const bool is_shown =
+        term.parameters.empty() || is_headline(term.parameters.front());  // as a fact, or in the table
+    if (!is_shown) terms += (terms.empty() ? "" : "; ") + term.text;
   }
   return terms.empty() ? terms : sentence("The model includes " + terms);
 }
