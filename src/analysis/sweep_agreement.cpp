@@ -107,7 +107,8 @@ std::vector<Apart> from_middle(const std::vector<FittedValue>& values, double mi
 
 std::optional<Apart> by_stiffness(std::span<const SweepEntry> entries, const std::vector<Analysis>& analyses,
                                   const SweepFit& fit) {
-  if (fit.result.find(ParameterId::Relaxation) != nullptr) return std::nullopt;  // k of a stick goes with its duration
+  if (fit.result.find(ParameterId::Relaxation) != nullptr)
+    return std::nullopt;  // the slope of a stick depends on how long it lasts
   std::vector<FittedValue> values = fitted_values(ParameterId::Stiffness, analyses, fit);
   if (values.empty()) return std::nullopt;
   for (FittedValue& own : values) {

@@ -62,10 +62,7 @@ class RelaxingCycle {
   /// Returns the force of the stick before the slip as the sensor shows it, continued to tau = 0; `shown_after` returns
   /// that of the stick after it.
   [[nodiscard]] double shown_before() const { return motion().at(0.0).z - shown_.lag_tau(); }
-  [[nodiscard]] double shown_after() const {
-    const double tau = 2.0 * tau_end();
-    return motion().at(tau).z - tau - shown_.lag_tau();
-  }
+  [[nodiscard]] double shown_after() const { return intercept() - shown_.lag_tau(); }
 
   /// Force above the level in units of k V / w_n, at any tau = w_n (t - onset).
   [[nodiscard]] Point at(double tau) const { return shown_.at(tau); }

@@ -9,8 +9,8 @@
 namespace slipfit::fit {
 
 /// Any motion as a sensor shows it that lags, averages, or does both. A Motion has, in the view of the sensor, the
-/// force `at` any tau, its `integral_to` any tau from the onset (d_tau: the force itself), the `tau_end` of its slip
-/// and the `parts` of it and of the stick after it, as far as that is not straight. docs/model.md section 7
+/// force `at` any tau, its `integral_to` any tau from the onset (d_tau: the force itself), the `tau_end` of its slip,
+/// and as `parts` the polynomials of the slip and of the stick after it where that is curved. docs/model.md section 7
 template <class Motion>
 class ShownMotion {
  public:

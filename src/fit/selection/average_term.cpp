@@ -36,8 +36,8 @@ bool is_shaped(const std::optional<SegmentMisfit>& misfit) {
   return !misfit || misfit->chance > thresholds::kMisfitChance;
 }
 
-/// Returns whether the slips without their averaging are those of the model, as far as few cycles show, and longer than
-/// a step of the clock.
+/// Returns whether the slips have the shape of the model's once the averaging is taken out, and last longer than a step
+/// of the clock. A few cycles decide it.
 bool follows_slips(const DampedFit& fit, double sample_interval_s) {
   const double negative = -thresholds::kNegativeSigmas * damping_error(fit);
   return is_shaped(fit.misfit) && !fit.refused_damping && fit.blocks.parameters.values(kDamping) > negative &&

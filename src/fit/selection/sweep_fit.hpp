@@ -23,7 +23,7 @@ struct SweepFits {
 enum class RigFit {
   Sharp,
   Rough,          ///< near enough to the minimum to compare starts
-  StiffnessGrows  ///< sharp, with k that goes with the speed
+  StiffnessGrows  ///< sharp, with k that varies with the speed
 };
 
 /// Fits Coulomb friction that the recordings do not share: they share the rig alone. Empty without a minimum.
