@@ -215,10 +215,7 @@ void limit_cycle(benchmark::State& state) {
   ModelEstimate model =
       stated_model(Slider::create(1000.0, 1.0, kZeta).value(), Friction::create(3.0, 2.0).value()).estimate;
   if (state.range(0) == 1) model.ageing = Ageing{0.05, 1.0, 0.1};
-  for (auto _ : state) {
-    benchmark::DoNotOptimize(model.ageing ? predict::ageing_motion_at(model, 1e-3)
-                                          : predict::coulomb_motion_at(model, 1e-3));
-  }
+  for (auto _ : state) benchmark::DoNotOptimize(predict::motion_at(model, 1e-3));
 }
 
 BENCHMARK(coulomb_solved)->Arg(0)->Arg(2);

@@ -40,7 +40,9 @@ void keep_in(const Range& range, Values&... values) {
 
 bool all_finite(const ModelEstimate& model) {
   double sum = 0.0;
-  for (const double value : values_of(model)) sum += std::abs(value);
+  for (const ParameterId id : kModelParameters) {
+    if (const double* const value = model.find(id)) sum += std::abs(*value);
+  }
   for (const auto& row : model.covariance) {
     for (const double cell : row) sum += std::abs(cell);
   }

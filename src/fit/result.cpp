@@ -14,26 +14,49 @@ double from_end(const SpeedReach& reach, double speed_m_per_s) {
   return std::max(std::log(speed_m_per_s / reach.fastest_m_per_s), std::log(reach.slowest_m_per_s / speed_m_per_s));
 }
 
+template <class Value, class Model>
+Value* find_value(Model& model, ParameterId id) {
+  const auto in = [](auto& part, auto member) -> Value* { return part ? &((*part).*member) : nullptr; };
+  switch (id) {
+    case ParameterId::Stiffness:
+      return &model.stiffness_N_per_m;
+    case ParameterId::NaturalFrequency:
+      return &model.natural_frequency_rad_per_s;
+    case ParameterId::DampingRatio:
+      return &model.damping_ratio;
+    case ParameterId::FrictionDifference:
+      return &model.friction_difference_N;
+    case ParameterId::FrictionSlope:
+      return in(model.speed_dependence, &SpeedDependence::slope_N_s_per_m);
+    case ParameterId::Alpha:
+      return in(model.speed_dependence, &SpeedDependence::alpha_s_per_m);
+    case ParameterId::Ageing:
+      return in(model.ageing, &Ageing::rate_N);
+    case ParameterId::AgeingTime:
+      return in(model.ageing, &Ageing::cutoff_s);
+    case ParameterId::ReloadForce:
+      return in(model.reloading, &Reloading::force_N);
+    case ParameterId::ReloadLength:
+      return in(model.reloading, &Reloading::length_m);
+    case ParameterId::StiffnessExponent:
+      return in(model.stiffness_trend, &StiffnessTrend::exponent);
+    case ParameterId::Relaxation:
+      return in(model.relaxing, &RelaxingSpring::share);
+    case ParameterId::RelaxationTime:
+      return in(model.relaxing, &RelaxingSpring::time_s);
+    default:
+      return nullptr;
+  }
+}
+
 }  // namespace
 
-std::array<double, kModelValues> values_of(const ModelEstimate& model) {
-  const SpeedDependence law = model.speed_dependence.value_or(SpeedDependence{});
-  const Ageing ageing = model.ageing.value_or(Ageing{});
-  const Reloading reloading = model.reloading.value_or(Reloading{});
-  const RelaxingSpring relaxing = model.relaxing.value_or(RelaxingSpring{});
-  return {model.stiffness_N_per_m,
-          model.natural_frequency_rad_per_s,
-          model.damping_ratio,
-          model.friction_difference_N,
-          law.slope_N_s_per_m,
-          law.alpha_s_per_m,
-          ageing.rate_N,
-          ageing.cutoff_s,
-          reloading.force_N,
-          reloading.length_m,
-          model.stiffness_trend.value_or(StiffnessTrend{}).exponent,
-          relaxing.share,
-          relaxing.time_s};
+double* ModelEstimate::find(ParameterId id) {
+  return find_value<double>(*this, id);
+}
+
+const double* ModelEstimate::find(ParameterId id) const {
+  return find_value<const double>(*this, id);
 }
 
 double SpeedReach::distance_to(double speed_m_per_s) const {

@@ -5,9 +5,10 @@
 namespace slipfit::model {
 
 /// The motion of a slip about one instant, by powers of the time since.
-class RelaxingSlip::Series {
+template <class Jet>
+class RelaxingSlipOf<Jet>::Series {
  public:
-  Series(const Motion& at, const RelaxingSlip& slip) {
+  Series(const Motion& at, const RelaxingSlipOf& slip) {
     z_[0] = at.z;
     speed_[0] = at.speed;
     relaxing_[0] = at.relaxing;
@@ -46,15 +47,19 @@ class RelaxingSlip::Series {
   JetSeries z_, speed_, relaxing_;
 };
 
-RelaxingSlip::Column RelaxingSlip::column_of(const Jet& jet) {
-  return {jet.a, jet.v[0], jet.v[1], jet.v[2], jet.v[3]};
+template <class Jet>
+typename RelaxingSlipOf<Jet>::Column RelaxingSlipOf<Jet>::column_of(const Jet& jet) {
+  Column column{jet.a};
+  if constexpr (kHasDerivatives) std::copy_n(jet.v.data(), kScaledParameters, column.begin() + 1);
+  return column;
 }
 
-RelaxingSlip::RelaxingSlip(double z0, double zeta, double share, const Times& times, ForceView view)
-    : z0_(z0, 0),
-      zeta_(zeta, 1),
-      share_(share, 2),
-      time_(times.relaxation, 3),
+template <class Jet>
+RelaxingSlipOf<Jet>::RelaxingSlipOf(double z0, double zeta, double share, const Times& times, ForceView view)
+    : z0_(parameter(z0, 0)),
+      zeta_(parameter(zeta, 1)),
+      share_(parameter(share, 2)),
+      time_(parameter(times.relaxation, 3)),
       view_(view),
       stick_tau_(times.period - times.slip),
       regained_(share_ * time_ * regained_in_stick(times.period / time_, times.slip / time_)) {
@@ -72,7 +77,8 @@ RelaxingSlip::RelaxingSlip(double z0, double zeta, double share, const Times& ti
   }
 }
 
-void RelaxingSlip::slide() {
+template <class Jet>
+void RelaxingSlipOf<Jet>::slide() {
   constexpr double kLongest = 60.0;  // no slip takes ten periods of the oscillation
   parts_.clear();
   integrals_.assign(1, {});
@@ -101,20 +107,23 @@ void RelaxingSlip::slide() {
   end_at(Series(motion, *this), 0.0);
 }
 
-void RelaxingSlip::add_part(const Series& series, double begin, double length) {
+template <class Jet>
+void RelaxingSlipOf<Jet>::add_part(const Series& series, double begin, double length) {
   SlipPart part{begin, length, {}};
   Column next = integrals_.back();
   double power = length;
   for (std::size_t n = 0; n <= kSeriesOrder; ++n, power *= length) {
     part.terms[n] = column_of(series.z(n) + drag() * series.speed(n));
-    for (std::size_t c = 0; c < next.size(); ++c) next[c] += part.terms[n][c] * power * kReciprocals[n + 1];
+    const std::size_t columns = kHasDerivatives ? next.size() : 1;
+    for (std::size_t c = 0; c < columns; ++c) next[c] += part.terms[n][c] * power * kReciprocals[n + 1];
   }
   parts_.push_back(part);
   integrals_.push_back(next);
 }
 
 /// The end moves with the parameters: x' = 1 there, or x'' = 0 where the body does not come to rest.
-void RelaxingSlip::end_at(const Series& series, double since) {
+template <class Jet>
+void RelaxingSlipOf<Jet>::end_at(const Series& series, double since) {
   tau_end_ = parts_.back().begin + parts_.back().length;
   const Motion fixed = series.at(Jet(since));
   const Jet acceleration = -fixed.z - 2.0 * zeta_ * fixed.speed;
@@ -127,12 +136,13 @@ void RelaxingSlip::end_at(const Series& series, double since) {
   end_.regained = share_ * time_ - end.relaxing;
   const Column& integral = integrals_.back();
   end_.integral = Jet(integral[0]);
-  for (std::size_t p = 0; p < kScaledParameters; ++p) end_.integral.v[static_cast<int>(p)] = integral[p + 1];
+  if constexpr (kHasDerivatives) std::copy_n(integral.begin() + 1, kScaledParameters, end_.integral.v.data());
   end_.integral += (end_.z.a + drag().a * end.speed.a) * moves;
 }
 
 /// z' = 1 - q / t with q = s t - A exp(-(time since the slip before) / t); a line before that slip would have ended.
-RelaxingSlip::State RelaxingSlip::before(double tau) const {
+template <class Jet>
+typename RelaxingSlipOf<Jet>::State RelaxingSlipOf<Jet>::before(double tau) const {
   const double since = std::max(0.0, stick_tau_ + tau);
   const Jet now = exp(-since / time_);
   const Jet rise = regained_ * (exp(-stick_tau_ / time_) - now);
@@ -140,20 +150,23 @@ RelaxingSlip::State RelaxingSlip::before(double tau) const {
   return {z0_ + (1.0 - share_) * tau + rise + drag(), 1.0 - share_.a + slope};
 }
 
-RelaxingSlip::State RelaxingSlip::after(double tau) const {
+template <class Jet>
+typename RelaxingSlipOf<Jet>::State RelaxingSlipOf<Jet>::after(double tau) const {
   const Jet since = tau - end_.tau;
   const Jet left = exp(-since / time_);
   const Jet rise = end_.regained * (1.0 - left);
   return {end_.z + (1.0 - share_) * since + rise + drag(), 1.0 - share_.a + end_.regained.a / time_.a * left.a};
 }
 
-std::size_t RelaxingSlip::part_at(double tau) const {
+template <class Jet>
+std::size_t RelaxingSlipOf<Jet>::part_at(double tau) const {
   const auto after = std::upper_bound(parts_.begin() + 1, parts_.end(), tau,
                                       [](double time, const SlipPart& part) { return time < part.begin; });
   return static_cast<std::size_t>(after - parts_.begin()) - 1;
 }
 
-RelaxingSlip::Point RelaxingSlip::at(double tau) const {
+template <class Jet>
+typename RelaxingSlipOf<Jet>::Point RelaxingSlipOf<Jet>::at(double tau) const {
   if (tau <= 0.0) return point_of(before(tau));
   if (tau > tau_end_) return point_of(after(tau));
   const SlipPart& part = parts_[part_at(tau)];
@@ -166,7 +179,8 @@ RelaxingSlip::Point RelaxingSlip::at(double tau) const {
   return point;
 }
 
-RelaxingSlip::Point RelaxingSlip::integral_to(double tau) const {
+template <class Jet>
+typename RelaxingSlipOf<Jet>::Point RelaxingSlipOf<Jet>::integral_to(double tau) const {
   if (tau <= 0.0) {
     const Jet onset = exp(-stick_tau_ / time_);
     const double since = std::max(0.0, stick_tau_ + tau);
@@ -193,7 +207,8 @@ RelaxingSlip::Point RelaxingSlip::integral_to(double tau) const {
 }
 
 /// Parts of the stick last as long as the exponential takes a radian, and longer once it has died out.
-std::vector<SlipPart> RelaxingSlip::parts() const {
+template <class Jet>
+std::vector<SlipPart> RelaxingSlipOf<Jet>::parts() const {
   constexpr double kPeriods = 3.0;
   constexpr double kDiedOut = 36.0;  // exp(-36) is rounding
   std::vector<SlipPart> parts = parts_;
@@ -212,16 +227,21 @@ std::vector<SlipPart> RelaxingSlip::parts() const {
   return parts;
 }
 
+template class RelaxingSlipOf<ceres::Jet<double, static_cast<int>(kScaledParameters)>>;
+
 namespace {
+
+using PlainSlip = RelaxingSlipOf<ceres::Jet<double, 1>>;
 
 /// Slip time, period and trough of slips that repeat: the typical cycle becomes its own.
 std::optional<std::array<double, 3>> repeated(const std::array<double, 4>& numbers) {
   constexpr int kMostRounds = 200;
-  constexpr double kSharp = 1e-12;
+  constexpr double kSharp = 1e-10;  // the inner loop leaves 1e-11
   const auto [z0, zeta, share, time] = numbers;
-  RelaxingSlip::Times times{time, std::numbers::pi, std::numbers::pi + 2.0 * z0};
+  PlainSlip::Times times{time, std::numbers::pi, std::numbers::pi + 2.0 * z0};
+  double change_before = 0.0;
   for (int round = 0; round < kMostRounds; ++round) {
-    const RelaxingSlip slip(z0, zeta, share, times);
+    const PlainSlip slip(z0, zeta, share, times);
     if (!slip.resticks()) return std::nullopt;
     const double trough = slip.end_force();
     const double longest = 2.0 * (z0 - trough) / (1.0 - share);  // twice the stick by the slope at rest
@@ -229,10 +249,16 @@ std::optional<std::array<double, 3>> repeated(const std::array<double, 4>& numbe
     const double onset = z0;
     const double period =
         root_between([&slip, onset](double tau) { return slip.at(tau).z[0] - onset; }, begin, begin + longest);
-    const double change = std::abs(period - times.period);
+    const double change = period - times.period;
     times.slip = begin;
     times.period = period;
-    if (change < kSharp * period) return std::array{begin, period, trough};
+    if (std::abs(change) < kSharp * period) return std::array{begin, period, trough};
+    // Every other round to where changes that shrink by the same ratio lead (Aitken).
+    const double ratio = change_before != 0.0 ? change / change_before : 0.0;
+    const double limit = period + change * ratio / (1.0 - ratio);
+    const bool jumps = std::abs(ratio) < 1.0 && limit > begin;
+    if (jumps) times.period = limit;
+    change_before = jumps ? 0.0 : change;
   }
   return std::nullopt;
 }
@@ -262,21 +288,8 @@ std::optional<RelaxingPeriod> relaxing_period(double z0, double zeta, double sha
   return result;
 }
 
-double relaxing_critical_lambda(double zeta, double share, double time, double near) {
-  constexpr double kFarthest = 8.0;
-  constexpr double kSharp = 1e-6;
-  const auto repeats = [&](double lambda) {
-    return lambda > 2.0 * zeta && repeated({lambda - 2.0 * zeta, zeta, share, time}).has_value();
-  };
-  double low = near;
-  double high = near;
-  while (low > near / kFarthest && repeats(low)) low /= 1.2;
-  while (high < near * kFarthest && !repeats(high)) high *= 1.2;
-  while (high > (1.0 + kSharp) * low) {
-    const double middle = std::sqrt(low * high);
-    (repeats(middle) ? high : low) = middle;
-  }
-  return high;
+bool relaxing_repeats(double z0, double zeta, double share, double time) {
+  return repeated({z0, zeta, share, time}).has_value();
 }
 
 }  // namespace slipfit::model

@@ -52,7 +52,9 @@ RelaxedOscillator<Number> relaxed_oscillator(const Number& zeta, const Number& s
 /// One cycle under Coulomb friction of a body on a spring of which the share s relaxes in the time t_r (standard linear
 /// solid, beside the damper), in the units of model/slip.hpp with k and w_n of the spring before it relaxes:
 /// x'' = -z - 2 zeta x' in the slip and x' = 1 in the sticks, z' = x' - q / t, q' = s x' - q / t, docs/model.md (25c).
-class RelaxingSlip {
+/// Jet: ceres::Jet with the four derivatives, or with one, which stays 0, where they are not wanted.
+template <class Jet>
+class RelaxingSlipOf {
  public:
   /// Times in units of 1 / w_n: of relaxation, and of a typical slip and period, from which the force that is still
   /// relaxing at the onset follows.
@@ -66,7 +68,7 @@ class RelaxingSlip {
   };
 
   /// Needs z0 + 2 zeta > 0, |zeta| < 1, 0 <= share < 1 and times above 0.
-  RelaxingSlip(double z0, double zeta, double share, const Times& times, ForceView view = ForceView::Spring);
+  RelaxingSlipOf(double z0, double zeta, double share, const Times& times, ForceView view = ForceView::Spring);
 
   /// End of slip; where it never sticks again: the minimum of the sliding speed.
   [[nodiscard]] double tau_end() const { return tau_end_; }
@@ -85,7 +87,6 @@ class RelaxingSlip {
   [[nodiscard]] std::vector<SlipPart> parts() const;
 
  private:
-  using Jet = ceres::Jet<double, static_cast<int>(kScaledParameters)>;
   using JetSeries = std::array<Jet, kSeriesOrder + 1>;
   /// A force with its slope.
   struct State {
@@ -101,6 +102,11 @@ class RelaxingSlip {
     Jet integral;          ///< of the force in the view
   };
 
+  static constexpr bool kHasDerivatives = Jet::DIMENSION == static_cast<int>(kScaledParameters);
+  static Jet parameter(double value, int place) {
+    if constexpr (kHasDerivatives) return Jet(value, place);
+    return Jet(value);
+  }
   static Column column_of(const Jet& jet);
   void slide();
   static Point point_of(const State& state) { return {column_of(state.z), state.d_tau}; }
@@ -122,6 +128,9 @@ class RelaxingSlip {
   std::vector<Column> integrals_;  ///< from the onset to the begin of each part, and to the end
 };
 
+using RelaxingSlip = RelaxingSlipOf<ceres::Jet<double, static_cast<int>(kScaledParameters)>>;
+extern template class RelaxingSlipOf<ceres::Jet<double, static_cast<int>(kScaledParameters)>>;
+
 /// Holds the times of slip and period of slips that repeat, and the force at the end of the slip, as RelaxingSlip has
 /// them.
 struct RelaxingPeriod {
@@ -130,8 +139,8 @@ struct RelaxingPeriod {
 /// Returns these slips; `time` is w_n t_r. The result is empty where the body does not stick again.
 std::optional<RelaxingPeriod> relaxing_period(double z0, double zeta, double share, double time);
 
-/// Returns the least lambda = z0 + 2 zeta at which slips repeat; `near`: a value near it.
-double relaxing_critical_lambda(double zeta, double share, double time, double near);
+/// Returns whether there are such slips.
+bool relaxing_repeats(double z0, double zeta, double share, double time);
 
 /// Holds the limit cycle of a body on a spring that relaxes; forces of the spring above F_k.
 template <class Number>

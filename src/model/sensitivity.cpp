@@ -32,26 +32,19 @@ std::optional<CycleSensitivity> damped_sensitivity(const Slider& slider, const F
 
   const Jet scale = k * speed / w_n;
   const Jet z0 = (f_s - f_k) / scale - 2.0 * zeta;
-  const model::Slip slip = model::solve_slip(z0.a, zeta.a);
-  if (!slip.resticks) return std::nullopt;
-  // One Newton step in dual numbers gives the moving end; z' = 1 there, so z moves with it one to one.
-  const model::SlipPoint<Jet> at = model::slip_point(z0, zeta, Jet(slip.tau_end));
-  Jet tau_end = -(at.dz - 1.0) / at.ddz;
-  Jet z_end = at.z + tau_end;
-  tau_end.a = slip.tau_end;  // the values that the spiral gives to the last digits
-  z_end.a = slip.end.z;
-
-  const Jet stick_s = (z0 - z_end) / w_n;
-  const Jet slip_s = tau_end / w_n;
+  const auto cycle = model::coulomb_cycle(z0, zeta);
+  if (!cycle) return std::nullopt;
+  const Jet slip_s = cycle->slip / w_n;
+  const Jet stick_s = cycle->stick / w_n;
   const Jet period_s = slip_s + stick_s;
   return CycleSensitivity{sensitive(slip_s),
                           sensitive(stick_s),
                           sensitive(period_s),
                           sensitive(speed * period_s),
-                          sensitive(f_k + scale * model::slip_extreme(z0, zeta, 0)),
-                          sensitive(f_k - scale * model::slip_extreme(z0, zeta, 1)),
+                          sensitive(f_k + scale * cycle->peak),
+                          sensitive(f_k + scale * cycle->trough),
                           sensitive(f_k + scale * z0),
-                          sensitive(f_k + scale * z_end)};
+                          sensitive(f_k + scale * (z0 - cycle->stick))};
 }
 
 }  // namespace slipfit

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 namespace slipfit::model {
 
@@ -164,6 +165,27 @@ T slip_end(const Slip& slip, const T& z0, const T& zeta) {
   if (slip.resticks) return T(slip.tau_end) - (at.dz - 1.0) / at.ddz;
   const T dddz = -2.0 * zeta * at.ddz - at.dz;
   return T(slip.tau_end) - at.ddz / dddz;
+}
+
+/// One slip and the stick after it in the units above, where slips repeat; peak and trough of z.
+template <class T>
+struct ScaledCycle {
+  T slip, stick, peak, trough;
+};
+
+/// Returns that cycle with derivatives (T: ceres::Jet); it is empty where the slip does not stick again. Needs z0 + 2
+/// zeta > 0 and |zeta| < 1.
+template <class T>
+std::optional<ScaledCycle<T>> coulomb_cycle(const T& z0, const T& zeta) {
+  const Slip slip = solve_slip(z0.a, zeta.a);
+  if (!slip.resticks) return std::nullopt;
+  // One Newton step in dual numbers gives the moving end; z' = 1 there, so z moves with it one to one.
+  const SlipPoint<T> at = slip_point(z0, zeta, T(slip.tau_end));
+  T tau_end = -(at.dz - 1.0) / at.ddz;
+  T z_end = at.z + tau_end;
+  tau_end.a = slip.tau_end;  // the values that the spiral gives to the last digits
+  z_end.a = slip.end.z;
+  return ScaledCycle<T>{tau_end, z0 - z_end, slip_extreme(z0, zeta, 0), -slip_extreme(z0, zeta, 1)};
 }
 
 /// > 0 where a slip that starts from stick sticks again: ln(1 + lambda^2 - 2 zeta lambda) against the damping of the

@@ -2,6 +2,8 @@
 
 #include <optional>
 
+#include "model/root_between.hpp"
+#include "model/slip.hpp"
 #include "model/velocity_track.hpp"
 
 namespace slipfit::model {
@@ -42,6 +44,37 @@ struct SlipJets {
   }
   /// Returns w_n times the period of slip and straight stick.
   [[nodiscard]] Jet tau_period(const VelocityTrack& track) const { return z0 - jet(track.after()); }
+
+  /// Returns the cycle; it is empty where the slip does not stick, or ends with the force above that of the next slip's
+  /// start.
+  [[nodiscard]] std::optional<ScaledCycle<Jet>> cycle(const VelocityTrack& track) const {
+    if (!track.resticks()) return std::nullopt;
+    const Jet slip = tau_slip(track.end());
+    const Jet stick = tau_period(track) - slip;
+    if (!(stick.a > 0.0)) return std::nullopt;
+    // The force is largest soon after the slip has started and smallest soon before it ends: between those two it
+    // falls.
+    const double falling = track.fastest_tau();
+    return ScaledCycle<Jet>{slip, stick, extreme(track, 0.0, falling), extreme(track, falling, track.tau_end())};
+  }
+
+  /// Positive where the slip sticks: z''^2 at its end is linear in the parameters up to where it vanishes; without
+  /// stick what z' lacks to 1.
+  [[nodiscard]] Jet restick_margin(const VelocityTrack& track) const {
+    const TrackEnd& end = track.end();
+    const Jet first = jet(end.first);
+    if (!track.resticks()) return first - 1.0;
+    Jet margin(end.second.value * end.second.value);
+    margin.v = 2.0 * (end.second.value * jet(end.second).v - end.third * first.v);
+    return margin;
+  }
+
+ private:
+  /// z where z' passes 0 between two times; to first order it does not move with that time.
+  [[nodiscard]] Jet extreme(const VelocityTrack& track, double before, double after) const {
+    const TrackPoint point = track.at(root_between([&](double tau) { return track.at(tau).d_tau; }, before, after));
+    return jet(point.z, point);
+  }
 };
 
 }  // namespace slipfit::model

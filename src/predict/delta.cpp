@@ -7,7 +7,6 @@
 
 #include "core/fit_thresholds.hpp"
 #include "core/student.hpp"
-#include "model/reloading.hpp"
 
 namespace slipfit::predict {
 namespace {
@@ -15,10 +14,6 @@ namespace {
 constexpr std::array<double, 2> kShare{1.0, 0.5};  // that ln k and ln w_n have in exponent times ln V
 
 constexpr std::size_t kDifferencePlace = place_in_model(ParameterId::FrictionDifference);
-
-double log_ratio(const ModelEstimate& model, double speed_m_per_s) {
-  return std::log(speed_m_per_s / model.stiffness_trend->speed_m_per_s);
-}
 
 /// `half_width`: of the 95 % interval of ln k; w_n is that of the same mass.
 void add_stiffness_error(ModelEstimate& model, double half_width) {
@@ -46,21 +41,6 @@ ModelEstimate beyond_single(const ModelEstimate& model, double speed_m_per_s) {
 
 }  // namespace
 
-ModelEstimate at_speed(const ModelEstimate& model, double speed_m_per_s) {
-  if (!model.stiffness_trend) return model;
-  ModelEstimate own = model;
-  const double log_growth = model.stiffness_trend->log_growth_at(speed_m_per_s);
-  own.stiffness_N_per_m *= std::exp(kShare[0] * log_growth);
-  own.natural_frequency_rad_per_s *= std::exp(kShare[1] * log_growth);
-  own.stiffness_trend.reset();
-  for (std::size_t i = 0; i < kShare.size(); ++i) {
-    const double share = kShare[i] * log_ratio(model, speed_m_per_s);
-    for (std::size_t j = 0; j < kModelValues; ++j) own.covariance[i][j] += share * own.covariance[kExponent][j];
-    for (std::size_t j = 0; j < kModelValues; ++j) own.covariance[j][i] += share * own.covariance[j][kExponent];
-  }
-  return own;
-}
-
 Propagation::Propagation(const ModelEstimate& model)
     : model_(model), quantile_(t_quantile(model_.degrees_of_freedom)) {}
 
@@ -81,7 +61,8 @@ Estimate Propagation::positive(const Jet& y) const {
 }
 
 bool Propagation::law_is_open_at(double speed_m_per_s) const {
-  return quantile_ * standard_error(ModelJets(model_).alpha_s_per_m) * speed_m_per_s > thresholds::kStraightLaw;
+  return quantile_ * standard_error(parameter_of<Jet>(model_, ParameterId::Alpha)) * speed_m_per_s >
+         thresholds::kStraightLaw;
 }
 
 std::optional<ModelEstimate> beyond(const ModelEstimate& model, double speed_m_per_s) {
@@ -99,20 +80,9 @@ std::optional<ModelEstimate> beyond(const ModelEstimate& model, double speed_m_p
   return wider;
 }
 
-CycleJets reloaded(CycleJets cycle, const ModelEstimate& model, double speed_m_per_s) {
-  if (!model.reloading) return cycle;
-  const ModelJets p(model);
-  const Jet straight_m = speed_m_per_s * cycle.stick_s;
-  const Jet rise_m = p.reload_force_N / p.stiffness_N_per_m;
-  cycle.stick_s = model::reloaded_stick_m(straight_m, rise_m, p.reload_length_m) / speed_m_per_s;
-  cycle.period_s = cycle.slip_s + cycle.stick_s;
-  cycle.periodic_displacement_m = speed_m_per_s * cycle.period_s;
-  return cycle;
-}
-
-Jet micro_vibration_spacing_m(const ModelJets& model, double speed_m_per_s) {
-  const Jet damped_omega = model.omega_rad_per_s * sqrt(1.0 - model.damping_ratio * model.damping_ratio);
-  return 2.0 * std::numbers::pi * speed_m_per_s / damped_omega;
+Jet micro_vibration_spacing_m(const model::SlidingBody<Jet>& body) {
+  const Jet damped_omega = body.omega_rad_per_s * sqrt(1.0 - body.zeta * body.zeta);
+  return 2.0 * std::numbers::pi * body.speed_m_per_s / damped_omega;
 }
 
 }  // namespace slipfit::predict

@@ -6,78 +6,56 @@
 
 #include <cmath>
 #include <optional>
-#include <string>
+#include <type_traits>
 
-#include "core/unknown.hpp"
+#include "model/sliding.hpp"
 #include "slipfit/core/estimate.hpp"
 #include "slipfit/fit/result.hpp"
-#include "slipfit/model/motion.hpp"
 
 namespace slipfit::predict {
 
-/// Numbers that know their derivatives with respect to (ln k, ln w_n, zeta, ln dF, b, alpha, rate and
-/// cut-off of ageing, A and ln l of reloading, exponent of k, share and ln t_r of relaxation).
+/// Numbers that know their derivatives with respect to kModelParameters, as these enter the covariance.
 using Jet = ceres::Jet<double, static_cast<int>(kModelValues)>;
 
-/// Holds the parameters of a model whose values are the first among what a number of this kind has derivatives with
-/// respect to.
+/// Numbers of a model whose parameters' errors do not matter.
+using Plain = ceres::Jet<double, 1>;
+
+/// Returns a parameter of a model; 0 where the model does not contain it. kModelParameters are the first among what a
+/// number of this kind has derivatives with respect to.
 template <class AnyJet>
-struct ModelJetsOf {
-  AnyJet stiffness_N_per_m, omega_rad_per_s, damping_ratio, difference_N, slope_N_s_per_m, alpha_s_per_m, ageing_N,
-      ageing_cutoff_s, reload_force_N, reload_length_m, relaxation, relaxation_time_s;
-
-  explicit ModelJetsOf(const ModelEstimate& model)
-      : stiffness_N_per_m(positive(model.stiffness_N_per_m, ParameterId::Stiffness)),
-        omega_rad_per_s(positive(model.natural_frequency_rad_per_s, ParameterId::NaturalFrequency)),
-        damping_ratio(parameter(model.damping_ratio, ParameterId::DampingRatio)),
-        difference_N(positive(model.friction_difference_N, ParameterId::FrictionDifference)) {
-    const SpeedDependence law = model.speed_dependence.value_or(SpeedDependence{});
-    const Ageing ageing = model.ageing.value_or(Ageing{});
-    const Reloading reloading = model.reloading.value_or(Reloading{});
-    const RelaxingSpring relaxing = model.relaxing.value_or(RelaxingSpring{});
-    slope_N_s_per_m = parameter(law.slope_N_s_per_m, ParameterId::FrictionSlope);
-    alpha_s_per_m = parameter(law.alpha_s_per_m, ParameterId::Alpha);
-    ageing_N = parameter(ageing.rate_N, ParameterId::Ageing);
-    ageing_cutoff_s = parameter(ageing.cutoff_s, ParameterId::AgeingTime);
-    reload_force_N = parameter(reloading.force_N, ParameterId::ReloadForce);
-    reload_length_m = positive(reloading.length_m, ParameterId::ReloadLength);
-    relaxation = parameter(relaxing.share, ParameterId::Relaxation);
-    relaxation_time_s = positive(relaxing.time_s, ParameterId::RelaxationTime);
+AnyJet parameter_of(const ModelEstimate& model, ParameterId id) {
+  const double* const value = model.find(id);
+  if (value == nullptr) return AnyJet(0.0);
+  AnyJet jet(*value);
+  if constexpr (!std::is_same_v<AnyJet, Plain>) {
+    jet.v[static_cast<int>(place_in_model(id))] = enters_as_logarithm(id) ? *value : 1.0;
   }
-
- private:
-  static AnyJet parameter(double value, ParameterId id) { return {value, static_cast<int>(place_in_model(id))}; }
-  /// One whose logarithm the model has.
-  static AnyJet positive(double value, ParameterId id) {
-    AnyJet jet(value);
-    jet.v[static_cast<int>(place_in_model(id))] = value;
-    return jet;
-  }
-};
-
-using ModelJets = ModelJetsOf<Jet>;
-
-/// The model with k and w_n of a speed, where they go with it, and the covariance of these.
-ModelEstimate at_speed(const ModelEstimate& model, double speed_m_per_s);
-
-inline constexpr int kExponent = static_cast<int>(place_in_model(ParameterId::StiffnessExponent));
-
-/// Converts derivatives with respect to k and w_n of a speed to those of the model's parameters, which are the first in
-/// y.
-template <class AnyJet>
-AnyJet from_speed(AnyJet y, const ModelEstimate& model, double speed_m_per_s) {
-  if (!model.stiffness_trend) return y;
-  const double log_speed = std::log(speed_m_per_s / model.stiffness_trend->speed_m_per_s);
-  y.v[kExponent] += log_speed * (y.v[0] + 0.5 * y.v[1]);
-  return y;
+  return jet;
 }
 
-/// The model at one speed.
+/// Returns the model's body at a speed.
 template <class AnyJet>
-ModelJetsOf<AnyJet> jets_at(const ModelEstimate& model, double speed_m_per_s) {
-  ModelJetsOf<AnyJet> jets(at_speed(model, speed_m_per_s));
-  for (AnyJet* const y : {&jets.stiffness_N_per_m, &jets.omega_rad_per_s}) *y = from_speed(*y, model, speed_m_per_s);
-  return jets;
+model::SlidingBody<AnyJet> body_at(const ModelEstimate& model, double speed_m_per_s) {
+  const auto of = [&model](ParameterId id) { return parameter_of<AnyJet>(model, id); };
+  model::SlidingBody<AnyJet> body{speed_m_per_s,
+                                  of(ParameterId::Stiffness),
+                                  of(ParameterId::NaturalFrequency),
+                                  of(ParameterId::DampingRatio),
+                                  of(ParameterId::FrictionDifference),
+                                  of(ParameterId::FrictionSlope),
+                                  of(ParameterId::Alpha)};
+  if (model.stiffness_trend) {
+    const double log_speed = std::log(speed_m_per_s / model.stiffness_trend->speed_m_per_s);
+    const AnyJet growth = exp(of(ParameterId::StiffnessExponent) * log_speed);
+    body.stiffness_N_per_m *= growth;
+    body.omega_rad_per_s *= sqrt(growth);  // of the same mass
+  }
+  if (model.ageing) {
+    body.ageing = {of(ParameterId::Ageing), of(ParameterId::AgeingTime), model.ageing->reference_stick_s};
+  }
+  if (model.reloading) body.rise = {of(ParameterId::ReloadForce), of(ParameterId::ReloadLength)};
+  if (model.relaxing) body.relaxation = {of(ParameterId::Relaxation), of(ParameterId::RelaxationTime)};
+  return body;
 }
 
 /// Computes standard errors and 95 % intervals from derivatives.
@@ -109,31 +87,7 @@ inline constexpr const char* kUntrended =
 /// determines nothing there.
 std::optional<ModelEstimate> beyond(const ModelEstimate& model, double speed_m_per_s);
 
-/// Where stick-slip from rest ends; at zeta = 0 it has no end, from zeta = 1 on there is none. The interval of the
-/// speed may reach to infinity: it has no value then.
-struct CriticalPoint {
-  Estimate lambda, speed_m_per_s;
-
-  static CriticalPoint unknown(const std::string& why) { return {slipfit::unknown(why), slipfit::unknown(why)}; }
-};
-
-/// One stick-slip cycle; forces of the spring above F_k.
-struct CycleJets {
-  Jet slip_s, stick_s, period_s, periodic_displacement_m, force_peak_N, force_trough_N;
-};
-
-/// Its stick, period and distance where the force rises more steeply after a slip than by k x, as `model` has it.
-CycleJets reloaded(CycleJets cycle, const ModelEstimate& model, double speed_m_per_s);
-
-/// The motion at one speed.
-struct MotionJets {
-  Regime regime = Regime::ContinuousSlip;
-  std::optional<Jet> aged_difference_N;  ///< F_s - F_k(0+) after the sticks of this speed, where it ages
-  std::optional<CycleJets> cycle;        ///< empty: no stick-slip
-  std::optional<Jet> restick_margin;     ///< > 0 where the slip sticks again, nearly linear around 0; empty: not known
-  Jet total_damping_ratio;  ///< of small oscillations around steady sliding, which is unstable where it is < 0
-};
 /// Spacing of the free oscillation inside a slip, an estimate only: V 2 pi / w. docs/model.md section 8
-Jet micro_vibration_spacing_m(const ModelJets& model, double speed_m_per_s);
+Jet micro_vibration_spacing_m(const model::SlidingBody<Jet>& body);
 
 }  // namespace slipfit::predict

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "core/student.hpp"
-#include "predict/delta.hpp"
+#include "predict/critical.hpp"
 #include "predict/motion.hpp"
 #include "slipfit/predict/single_speed.hpp"
 
@@ -81,9 +81,8 @@ Derived derive_from_model(const FitResult& fit, const Conditions& conditions) {
   const double speed_error = conditions.speed_standard_error_m_per_s.value_or(0.0) / speed;
   const ModelEstimate model = at_the_measured_speed(from_single_speed(fit, speed), speed_error);
   const predict::Propagation propagation(model);
-  const predict::ModelJets p(model);
-  const predict::Jet lambda = p.omega_rad_per_s * p.difference_N / (p.stiffness_N_per_m * speed);  // [Paper] eq. (9)
-  derived.lambda = propagation.positive(lambda);
+  const auto body = predict::body_at<predict::Jet>(model, speed);
+  derived.lambda = propagation.positive(body.lambda());
   predict::CriticalPoint critical = predict::critical_point(model);
   derived.lambda_critical = std::move(critical.lambda);
   const auto at_uncertain_speed = [&](Estimate distance) {
@@ -91,14 +90,14 @@ Derived derive_from_model(const FitResult& fit, const Conditions& conditions) {
   };
   derived.critical_speed_m_per_s = with_observed_end(at_uncertain_speed(std::move(critical.speed_m_per_s)), {});
   derived.micro_vibration_spacing_m =
-      at_uncertain_speed(propagation.positive(predict::micro_vibration_spacing_m(p, speed)));
+      at_uncertain_speed(propagation.positive(predict::micro_vibration_spacing_m(body)));
   derived.micro_vibration_spacing_m.note = "estimate: the one-mass model has no micro-vibration inside a slip";
 
-  const predict::MotionJets motion = predict::motion_at(model, speed);
+  const predict::ModelMotion motion = predict::motion_at(model, speed);
   derived.regime = motion.regime;
-  derived.periodic_displacement_m =
-      motion.cycle ? at_uncertain_speed(propagation.positive(motion.cycle->periodic_displacement_m))
-                   : unknown("the fitted model has no stick-slip at this speed");
+  derived.periodic_displacement_m = motion.cycle
+                                        ? at_uncertain_speed(propagation.positive(speed * motion.cycle->period_s()))
+                                        : unknown("the fitted model has no stick-slip at this speed");
   if (conditions.measured_spacing_m) {
     derived.measured_spacing_En = spacing_score(derived.periodic_displacement_m, *conditions.measured_spacing_m,
                                                 conditions.measured_spacing_se_m);

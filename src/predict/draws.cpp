@@ -2,7 +2,6 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
-#include <array>
 #include <boost/math/distributions/normal.hpp>
 #include <cmath>
 #include <cstdint>
@@ -11,7 +10,6 @@
 #include <utility>
 
 #include "core/student.hpp"
-#include "slipfit/model/motion.hpp"
 
 namespace slipfit::predict {
 namespace {
@@ -41,41 +39,27 @@ MatrixXd root_of(const ModelEstimate& model) {
   return errors.asDiagonal() * solver.eigenvectors() * roots.asDiagonal() * solver.eigenvectors().transpose();
 }
 
+/// False outside of the ranges, or where a value is larger than a double can be.
 bool is_model(const ModelEstimate& model) {
-  const auto slider = Slider::create(model.stiffness_N_per_m, model.natural_frequency_rad_per_s, model.damping_ratio);
-  if (!slider || !Friction::create(model.friction_difference_N, 0.0) || !(model.damping_ratio < 1.0)) return false;
-  const std::array<double, kModelValues> values = values_of(model);
-  return std::ranges::all_of(values, [](double value) { return std::isfinite(value); });
+  const auto is_in_range = [&model](ParameterId id) {
+    const double* const value = model.find(id);
+    if (value == nullptr) return true;
+    const bool is_positive = enters_as_logarithm(id) || id == ParameterId::Ageing || id == ParameterId::ReloadForce;
+    const Range& range = info(id).range;
+    return std::isfinite(*value) && *value >= range.low && *value <= range.high && (!is_positive || *value > 0.0);
+  };
+  return model.damping_ratio < 1.0 && std::ranges::all_of(kModelParameters, is_in_range);
 }
 
-/// Returns the moved model; empty where it is no model: outside of the ranges, or larger than a double can be.
+/// Returns the moved model; empty where it is no model.
 std::optional<ModelEstimate> moved(const ModelEstimate& model, const VectorXd& step) {
-  const auto move = [&](ParameterId id) { return step(static_cast<Index>(place_in_model(id))); };
   ModelEstimate other = model;
-  other.stiffness_N_per_m *= std::exp(move(ParameterId::Stiffness));
-  other.natural_frequency_rad_per_s *= std::exp(move(ParameterId::NaturalFrequency));
-  other.damping_ratio += move(ParameterId::DampingRatio);
-  other.friction_difference_N *= std::exp(move(ParameterId::FrictionDifference));
-  if (other.speed_dependence) {
-    other.speed_dependence->slope_N_s_per_m += move(ParameterId::FrictionSlope);
-    other.speed_dependence->alpha_s_per_m += move(ParameterId::Alpha);
+  for (std::size_t i = 0; i < kModelValues; ++i) {
+    double* const value = other.find(kModelParameters[i]);
+    if (value == nullptr) continue;
+    const double move = step(static_cast<Index>(i));
+    *value = enters_as_logarithm(kModelParameters[i]) ? *value * std::exp(move) : *value + move;
   }
-  if (other.ageing) {
-    other.ageing->rate_N += move(ParameterId::Ageing);
-    other.ageing->cutoff_s += move(ParameterId::AgeingTime);
-    if (!(other.ageing->rate_N > 0.0 && other.ageing->cutoff_s >= 0.0)) return std::nullopt;
-  }
-  if (other.reloading) {
-    other.reloading->force_N += move(ParameterId::ReloadForce);
-    other.reloading->length_m *= std::exp(move(ParameterId::ReloadLength));
-    if (!(other.reloading->force_N > 0.0)) return std::nullopt;
-  }
-  if (other.relaxing) {
-    other.relaxing->share += move(ParameterId::Relaxation);
-    other.relaxing->time_s *= std::exp(move(ParameterId::RelaxationTime));
-    if (!(other.relaxing->share >= 0.0 && other.relaxing->share < 1.0)) return std::nullopt;
-  }
-  if (other.stiffness_trend) other.stiffness_trend->exponent += move(ParameterId::StiffnessExponent);
   return is_model(other) ? std::optional(other) : std::nullopt;
 }
 

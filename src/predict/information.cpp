@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "model/slip_jets.hpp"
-#include "predict/motion.hpp"
+#include "predict/delta.hpp"
 
 namespace slipfit::predict {
 namespace {
@@ -24,7 +24,7 @@ using CycleMatrix = Eigen::Matrix<double, kColumns, kColumns>;
 class Cycle {
  public:
   Cycle(const ModelEstimate& model, double speed_m_per_s, double excess_N)
-      : Cycle(jets_of(model, speed_m_per_s), speed_m_per_s, excess_N) {}
+      : Cycle(body_of(model, speed_m_per_s), speed_m_per_s, excess_N) {}
 
   [[nodiscard]] bool sticks() const { return track_ && track_->resticks() && tau_stick() > 0.0; }
   [[nodiscard]] double omega_rad_per_s() const { return omega_.a; }
@@ -45,24 +45,24 @@ class Cycle {
   [[nodiscard]] CycleJet onset_departure() const { return onset_force_ - mean_onset_force_; }
 
  private:
-  using Jets = ModelJetsOf<CycleJet>;
+  using Body = model::SlidingBody<CycleJet>;
 
-  static Jets jets_of(const ModelEstimate& model, double speed_m_per_s) {
-    Jets p = jets_at<CycleJet>(model, speed_m_per_s);
-    if (!model.ageing) return p;
+  static Body body_of(const ModelEstimate& model, double speed_m_per_s) {
+    Body body = body_at<CycleJet>(model, speed_m_per_s);
+    if (!body.ageing) return body;
     // After the sticks of this speed; that these follow F_s - F_k is a small part of what they show of the rate.
-    const double aged_N = aged_difference_N(at_speed(model, speed_m_per_s), speed_m_per_s).value_or(0.0);
-    const auto [rate_N, reference_s, cutoff_s] = *model.ageing;
-    const double log_stick = (aged_N - model.friction_difference_N) / rate_N;
-    const double by_cutoff = (std::exp(-log_stick) - 1.0) / (reference_s + cutoff_s);
-    p.difference_N += p.ageing_N * log_stick + rate_N * by_cutoff * (p.ageing_cutoff_s - cutoff_s);
-    return p;
+    const auto aged_N = body_at<Plain>(model, speed_m_per_s).aged_difference_N();
+    const auto [rate_N, cutoff_s, reference_s] = *body.ageing;
+    const double log_stick = ((aged_N ? aged_N->a : 0.0) - body.difference_N.a) / rate_N.a;
+    const double by_cutoff = (std::exp(-log_stick) - 1.0) / (reference_s + cutoff_s.a);
+    body.difference_N += rate_N * log_stick + rate_N.a * by_cutoff * (cutoff_s - cutoff_s.a);
+    return body;
   }
 
-  Cycle(const Jets& p, double speed_m_per_s, double excess_N)
+  Cycle(const Body& p, double speed_m_per_s, double excess_N)
       : omega_(p.omega_rad_per_s),
-        slip_(p.stiffness_N_per_m, p.omega_rad_per_s, p.damping_ratio, p.difference_N, p.slope_N_s_per_m,
-              p.alpha_s_per_m, speed_m_per_s),
+        slip_(p.stiffness_N_per_m, p.omega_rad_per_s, p.zeta, p.difference_N, p.slope_N_s_per_m, p.alpha_s_per_m,
+              speed_m_per_s),
         mean_onset_force_(slip_.force_unit_N * slip_.z0),  // F_s - cV
         onset_force_(mean_onset_force_.a + excess_N, kOnsetForce) {
     slip_.z0 = onset_force_ / slip_.force_unit_N;

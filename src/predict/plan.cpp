@@ -6,7 +6,7 @@
 
 #include "core/fit_thresholds.hpp"
 #include "core/quantile.hpp"
-#include "predict/delta.hpp"
+#include "predict/critical.hpp"
 #include "predict/information.hpp"
 #include "predict/motion.hpp"
 
@@ -22,33 +22,20 @@ struct NamedJet {
   Jet value;
 };
 
+/// Those of the model, and mass and damping coefficient, in the order of every report.
 std::vector<NamedJet> parameters_of(const ModelEstimate& model) {
-  const predict::ModelJets p(model);
-  std::vector<NamedJet> all{
-      {"stiffness_N_per_m", p.stiffness_N_per_m},
-      {"friction_difference_N", p.difference_N},
-      {"natural_frequency_rad_per_s", p.omega_rad_per_s},
-      {"mass_kg", p.stiffness_N_per_m / (p.omega_rad_per_s * p.omega_rad_per_s)},
-      {"damping_ratio", p.damping_ratio},
-      {"damping_coefficient_N_s_per_m", 2.0 * p.damping_ratio * p.stiffness_N_per_m / p.omega_rad_per_s}};
-  if (model.speed_dependence) {
-    all.push_back({"friction_slope_N_s_per_m", p.slope_N_s_per_m});
-    all.push_back({"alpha_s_per_m", p.alpha_s_per_m});
-  }
-  if (model.ageing) {
-    all.push_back({"ageing_N", p.ageing_N});
-    all.push_back({"ageing_time_s", p.ageing_cutoff_s});
-  }
-  if (model.stiffness_trend) {
-    all.push_back({"stiffness_exponent", Jet(model.stiffness_trend->exponent, predict::kExponent)});
-  }
-  if (model.reloading) {
-    all.push_back({"reload_force_N", p.reload_force_N});
-    all.push_back({"reload_length_m", p.reload_length_m});
-  }
-  if (model.relaxing) {
-    all.push_back({"relaxation", p.relaxation});
-    all.push_back({"relaxation_time_s", p.relaxation_time_s});
+  const auto of = [&model](ParameterId id) { return predict::parameter_of<Jet>(model, id); };
+  const Jet k = of(ParameterId::Stiffness);
+  const Jet omega = of(ParameterId::NaturalFrequency);
+  std::vector<NamedJet> all;
+  for (const ParameterInfo& parameter : parameter_table()) {
+    std::string name(parameter.key);
+    if (model.find(parameter.id) != nullptr)
+      all.push_back({std::move(name), of(parameter.id)});
+    else if (parameter.id == ParameterId::Mass)
+      all.push_back({std::move(name), k / (omega * omega)});
+    else if (parameter.id == ParameterId::DampingCoefficient)
+      all.push_back({std::move(name), 2.0 * of(ParameterId::DampingRatio) * k / omega});
   }
   return all;
 }
@@ -190,7 +177,7 @@ class Planner {
   }
 
   [[nodiscard]] bool sticks_for_sure(double speed_m_per_s) const {
-    const predict::MotionJets motion = predict::motion_at(basis_.estimate, speed_m_per_s);
+    const predict::ModelMotion motion = predict::motion_at(basis_.estimate, speed_m_per_s);
     if (!motion.cycle || !motion.restick_margin) return false;
     const Jet& margin = *motion.restick_margin;
     return margin.a > 2.0 * propagation_.quantile() * propagation_.standard_error(margin);
@@ -240,9 +227,9 @@ PlanTarget worst_known(const std::vector<ParameterLimit>& limits) {
 Result<Jet> jet_of(const PlanTarget& target, const ModelEstimate& model) {
   if (target.name == "periodic_displacement_m") {
     if (!target.speed_m_per_s) return Error{"bad_target", "periodic_displacement_m needs a speed"};
-    const predict::MotionJets motion = predict::motion_at(model, *target.speed_m_per_s);
+    const predict::ModelMotion motion = predict::motion_at(model, *target.speed_m_per_s);
     if (!motion.cycle) return Error{"bad_target", "the fitted model has no stick-slip at this speed"};
-    return Jet(motion.cycle->periodic_displacement_m);
+    return Jet(*target.speed_m_per_s * motion.cycle->period_s());
   }
   std::string known;
   for (const NamedJet& parameter : parameters_of(model)) {

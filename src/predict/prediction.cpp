@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/fit_thresholds.hpp"
+#include "predict/critical.hpp"
 #include "predict/cycles_of_draws.hpp"
 #include "predict/delta.hpp"
 #include "predict/motion.hpp"
@@ -31,14 +32,13 @@ class Predictor {
         critical_(critical),
         speed_m_per_s_(speed_m_per_s),
         propagation_(wider_.value_or(model.estimate)),
-        jets_(predict::jets_at<Jet>(model.estimate, speed_m_per_s)) {}
+        body_(predict::body_at<Jet>(model.estimate, speed_m_per_s)) {}
 
   [[nodiscard]] PredictedMotion motion() const {
     PredictedMotion row;
     row.speed_m_per_s = speed_m_per_s_;
-    const predict::MotionJets motion = predict::motion_at(model_.estimate, speed_m_per_s_);
-    const Jet difference_N = motion.aged_difference_N.value_or(jets_.difference_N);
-    row.lambda = positive(jets_.omega_rad_per_s * difference_N / (jets_.stiffness_N_per_m * speed_m_per_s_));
+    const predict::ModelMotion motion = predict::motion_at(model_.estimate, speed_m_per_s_);
+    row.lambda = positive(motion.lambda);
     row.regime = motion.regime;
     if (motion.cycle) add_cycle(*motion.cycle, row);
     if (motion.cycle && is_beyond_observed_end()) {
@@ -105,22 +105,22 @@ class Predictor {
     return {value, se, Interval{value - reach, value + reach}, {}};
   }
 
-  void add_cycle(const predict::CycleJets& cycle, PredictedMotion& row) const {
-    row.period_s = positive(cycle.period_s);
-    row.frequency_Hz = positive(1.0 / cycle.period_s);
+  void add_cycle(const model::SlidingCycle<Jet>& cycle, PredictedMotion& row) const {
+    row.period_s = positive(cycle.period_s());
+    row.frequency_Hz = positive(1.0 / cycle.period_s());
     row.slip_time_s = positive(cycle.slip_s);
     row.stick_time_s = positive(cycle.stick_s);
     row.sticking_degree = share(cycle.stick_s, cycle.slip_s);
-    row.periodic_displacement_m = positive(cycle.periodic_displacement_m);
-    row.micro_vibration_spacing_m = positive(predict::micro_vibration_spacing_m(jets_, row.speed_m_per_s));
-    row.force_peak_N = force(cycle.force_peak_N);
-    row.force_trough_N = force(cycle.force_trough_N);
+    row.periodic_displacement_m = positive(speed_m_per_s_ * cycle.period_s());
+    row.micro_vibration_spacing_m = positive(predict::micro_vibration_spacing_m(body_));
+    row.force_peak_N = force(cycle.peak_N);
+    row.force_trough_N = force(cycle.trough_N);
   }
 
   /// Near its end the cycle changes with the square root of the distance: the delta method fails there. The margin is
   /// nearly linear in zeta and ln lambda, so it is informative also where zeta, and with it the critical speed, is
   /// unknown.
-  [[nodiscard]] bool is_doubtful(const predict::MotionJets& motion) const {
+  [[nodiscard]] bool is_doubtful(const predict::ModelMotion& motion) const {
     if (!model_.has_covariance) return false;
     const std::optional<Interval>& critical = critical_.speed_m_per_s.ci95;
     if (critical && critical->low <= speed_m_per_s_ && speed_m_per_s_ <= critical->high) return true;
@@ -177,7 +177,7 @@ class Predictor {
   const predict::CriticalPoint& critical_;
   double speed_m_per_s_;
   predict::Propagation propagation_;
-  predict::ModelJets jets_;
+  model::SlidingBody<Jet> body_;
 };
 
 }  // namespace
@@ -196,14 +196,14 @@ PredictionModel stated_model(const Slider& slider, const Friction& friction) {
 PredictionModel at_load(PredictionModel model, double normal_force_N) {
   ModelEstimate& estimate = model.estimate;
   const double ratio = normal_force_N / estimate.normal_force_N.value();
-  estimate.friction_difference_N *= ratio;
-  if (estimate.speed_dependence) estimate.speed_dependence->slope_N_s_per_m *= ratio;
-  if (estimate.ageing) estimate.ageing->rate_N *= ratio;
-  if (estimate.reloading) estimate.reloading->force_N *= ratio;
-  for (const std::size_t of_force : {4U, 6U, 8U}) {  // the slope of F_k(v), the rate of ageing, the rise after a slip
+  for (const ParameterId of_friction :
+       {ParameterId::FrictionDifference, ParameterId::FrictionSlope, ParameterId::Ageing, ParameterId::ReloadForce}) {
+    if (double* const value = estimate.find(of_friction)) *value *= ratio;
+    if (enters_as_logarithm(of_friction)) continue;
+    const std::size_t place = place_in_model(of_friction);
     for (std::size_t i = 0; i < kModelValues; ++i) {
-      estimate.covariance[of_force][i] *= ratio;
-      estimate.covariance[i][of_force] *= ratio;
+      estimate.covariance[place][i] *= ratio;
+      estimate.covariance[i][place] *= ratio;
     }
   }
   estimate.normal_force_N = normal_force_N;

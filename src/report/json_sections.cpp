@@ -158,25 +158,18 @@ Json candidate_json(const Candidate& candidate, ForceQuantity quantity) {
   return json;
 }
 
-/// Returns the position of a parameter in ModelEstimate::covariance.
-std::size_t place_of(const std::string& name) {
-  const auto* const found =
-      std::ranges::find_if(kModelParameters, [&name](ParameterId id) { return info(id).key == name; });
-  return static_cast<std::size_t>(found - kModelParameters.begin());
-}
-
 /// Writes the values to which the covariance belongs, in the order of Correlation::names. A value that the data hardly
 /// determine alone, and whose parameter is therefore null, is still included: together with the others it predicts.
 Json working_values_json(const Correlation& correlation, const ModelEstimate& estimate) {
-  const std::array<double, kModelValues> values = values_of(estimate);
-  return array_of(correlation.names, [&values](const std::string& name) { return values[place_of(name)]; });
+  return array_of(correlation.names,
+                  [&estimate](const std::string& name) { return *estimate.find(parameter_with_key(name).value()); });
 }
 
 /// Writes the standard errors that with the matrix are the whole covariance. If zeta is at 0, the se of the parameters
 /// is wider.
 Json scaled_errors_json(const Correlation& correlation, const ModelEstimate& estimate) {
   return array_of(correlation.names, [&estimate](const std::string& name) {
-    const std::size_t i = place_of(name);
+    const std::size_t i = place_in_model(parameter_with_key(name).value());
     return std::sqrt(std::max(0.0, estimate.covariance[i][i]));
   });
 }

@@ -11,6 +11,7 @@
 #include "core/quantile.hpp"
 #include "differences.hpp"
 #include "model/ageing.hpp"
+#include "predict/critical.hpp"
 #include "predict/draws.hpp"
 #include "predict/motion.hpp"
 #include "slipfit/predict/plan.hpp"
@@ -177,7 +178,7 @@ TEST_CASE("ageing: the search for quantiles of the end agrees with the ends of a
   model.estimate.covariance[6][6] = 0.03 * 0.03;
   std::vector<double> ends;
   for (const ModelEstimate& draw : predict::draws_of(model.estimate)) {
-    ends.push_back(predict::ageing_end_m_per_s(draw, 1e-6));
+    ends.push_back(predict::end_of_stick_slip_m_per_s(draw, 1e-6));
   }
   const Estimate end = critical_speed(model);
   REQUIRE(end.ci95);
@@ -280,8 +281,8 @@ TEST_CASE("next to the end of stick-slip the motion is known for a static fricti
         double slides = 10.0;
         while (slides > (1.0 + 1e-14) * sticks) {
           const double middle = std::sqrt(sticks * slides);
-          (predict::aged_difference_N(model, middle, kRough) ? sticks : slides) = middle;
-          const predict::MotionJets motion = predict::ageing_motion_at(model, middle, kRough);
+          (predict::sticks_at(model, middle, kRough) ? sticks : slides) = middle;
+          const predict::ModelMotion motion = predict::motion_at(model, middle, kRough);
           CAPTURE(zeta, rate_N, stiffness_N_per_m, middle);
           CHECK(motion.cycle.has_value() ==
                 (motion.regime == Regime::StickSlip || motion.regime == Regime::StickSlipBistable));

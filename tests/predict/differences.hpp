@@ -11,18 +11,10 @@ namespace test {
 
 /// Moved by `step` in value i of ModelEstimate::covariance.
 inline slipfit::PredictionModel moved(slipfit::PredictionModel model, std::size_t i, double step) {
-  slipfit::ModelEstimate& e = model.estimate;
-  if (i == 0) e.stiffness_N_per_m *= std::exp(step);
-  if (i == 1) e.natural_frequency_rad_per_s *= std::exp(step);
-  if (i == 2) e.damping_ratio += step;
-  if (i == 3) e.friction_difference_N *= std::exp(step);
-  if (i == 4 && e.speed_dependence) e.speed_dependence->slope_N_s_per_m += step;
-  if (i == 5 && e.speed_dependence) e.speed_dependence->alpha_s_per_m += step;
-  if (i == 6 && e.ageing) e.ageing->rate_N += step;
-  if (i == 7 && e.ageing) e.ageing->cutoff_s += step;
-  if (i == 8 && e.reloading) e.reloading->force_N += step;
-  if (i == 9 && e.reloading) e.reloading->length_m *= std::exp(step);
-  if (i == 10 && e.stiffness_trend) e.stiffness_trend->exponent += step;
+  const slipfit::ParameterId id = slipfit::kModelParameters[i];
+  if (double* const value = model.estimate.find(id)) {
+    *value = slipfit::enters_as_logarithm(id) ? *value * std::exp(step) : *value + step;
+  }
   return model;
 }
 

@@ -76,7 +76,7 @@ struct HeldParameters {
   std::optional<double> damping_ratio{};
 };
 
-/// The parameters of a model's covariance in its order; positive parameters enter as logarithms.
+/// The parameters of a model's covariance, in its order.
 inline constexpr std::array kModelParameters{ParameterId::Stiffness,
                                              ParameterId::NaturalFrequency,
                                              ParameterId::DampingRatio,
@@ -97,6 +97,12 @@ constexpr std::size_t place_in_model(ParameterId id) {
   std::size_t place = 0;
   while (place < kModelValues && kModelParameters[place] != id) ++place;
   return place;
+}
+
+/// Returns whether the covariance of a model is that of the parameter's logarithm.
+constexpr bool enters_as_logarithm(ParameterId id) {
+  return id == ParameterId::Stiffness || id == ParameterId::NaturalFrequency || id == ParameterId::FrictionDifference ||
+         id == ParameterId::ReloadLength || id == ParameterId::RelaxationTime;
 }
 
 }  // namespace slipfit

@@ -162,9 +162,8 @@ struct ModelEstimate {
   double natural_frequency_rad_per_s = 0.0;
   double damping_ratio = 0.0;          ///< >= 0
   double friction_difference_N = 0.0;  ///< F_s - F_k(0+)
-  /// The covariance of kModelParameters (ln k, ln w_n, zeta, ln(F_s - F_k(0+)), b, alpha, rate and cut-off of ageing, A
-  /// and ln l of the force recovery, exponent of k, share and ln t_r of the relaxation), including the scatter of the
-  /// cycles; b and alpha are exactly 0 under Coulomb friction, the others if the model does not contain them.
+  /// The covariance of kModelParameters, of the logarithms of those that enter as logarithms, including the scatter of
+  /// the cycles; exactly 0 for those that the model does not contain.
   std::array<std::array<double, kModelValues>, kModelValues> covariance{};
   double degrees_of_freedom = 1.0;                    ///< of Student's t
   bool damping_identified = false;                    ///< zeta is known well enough to ask for critical speeds
@@ -176,10 +175,11 @@ struct ModelEstimate {
   std::optional<SpeedReach> reach{};                  ///< of a sweep
   std::optional<SingleSpeed> single_speed{};          ///< of one recording, where a prediction is asked for
   std::optional<double> normal_force_N{};             ///< that the forces belong to, where loads are known
-};
 
-/// Returns the values in the order of kModelParameters; 0 for those that the model does not contain.
-std::array<double, kModelValues> values_of(const ModelEstimate& model);
+  /// Returns one of kModelParameters; null where the model does not contain it.
+  [[nodiscard]] double* find(ParameterId id);
+  [[nodiscard]] const double* find(ParameterId id) const;
+};
 
 struct FitResult {
   Tier tier = Tier::Sawtooth;

@@ -11,9 +11,10 @@ CycleData thinned(CycleData cycle, double middle_s, double half_period_s, double
   constexpr std::size_t kSmooth = 4;
   const auto stride = static_cast<std::size_t>(std::max(1.0, half_period_s / step_s / kSamples));
   std::vector<std::size_t> kept;
-  for (std::size_t i = 0; i < cycle.time_s.size(); i += stride) {
+  for (std::size_t i = 0; i < cycle.time_s.size(); ++i) {  // by their numbers: steps stay even where some are left out
     const bool is_near = std::abs(cycle.time_s[i] - middle_s) <= kReach * half_period_s;
-    if (is_near || i % (kSmooth * stride) == 0) kept.push_back(i);
+    const std::size_t every = is_near ? stride : kSmooth * stride;
+    if ((cycle.samples[i] - cycle.samples.front()) % every == 0) kept.push_back(i);
   }
   const auto thin = [&](auto& values) {
     if (values.empty()) return;

@@ -1,13 +1,8 @@
 #include "fit/inference/sliding_model.hpp"
 
 #include <cmath>
-#include <utility>
 
 #include "fit/law/speed_dependent.hpp"
-#include "model/ageing.hpp"
-#include "model/relaxing.hpp"
-#include "model/reloading.hpp"
-#include "model/slip_jets.hpp"
 
 namespace slipfit::fit {
 
@@ -33,65 +28,38 @@ SlidingModel::SlidingModel(const Coordinates& values, const Units& units) {
   reference_speed_m_per_s_ = units.speed_m_per_s;
 }
 
-Jet SlidingModel::growth_at(double speed_m_per_s) const {
-  return exp(stiffness_exponent * std::log(speed_m_per_s / reference_speed_m_per_s_));
-}
-
 Jet SlidingModel::excess_friction(double speed_m_per_s) const {
   const Jet rate = alpha * speed_m_per_s;
   if (std::abs(rate.a) < 1e-6) return slope * speed_m_per_s * (1.0 + 0.5 * rate);
   return slope * (exp(rate) - 1.0) / alpha;
 }
 
+model::SlidingBody<Jet> SlidingModel::body_at(double speed_m_per_s, double load) const {
+  const Jet growth = exp(stiffness_exponent * std::log(speed_m_per_s / reference_speed_m_per_s_));
+  model::SlidingBody<Jet> body{speed_m_per_s, stiffness * growth, omega * sqrt(growth),  // of the same mass
+                               zeta,          load * difference,  load * slope,         alpha};
+  if (ageing.a != 0.0) body.ageing = {load * ageing, ageing_time, reference_stick_s_};
+  if (reload) body.rise = {load * reload->force_N, reload->length_m};
+  body.relaxation = relaxation;
+  return body;
+}
+
 std::optional<Jet> SlidingModel::spacing(double speed_m_per_s, double load) const {
-  const std::optional<Jet> aged_N = aged_difference_N(speed_m_per_s, load);
-  if (!aged_N) return std::nullopt;
-  const std::optional<Cycle> limit = cycle(speed_m_per_s, load, *aged_N);
-  if (!limit) return std::nullopt;
-  return speed_m_per_s * limit->period_s;
-}
-
-std::optional<SlidingModel::Cycle> SlidingModel::cycle(double speed_m_per_s, double load,
-                                                       const Jet& difference_N) const {
-  const Jet growth = growth_at(speed_m_per_s);
-  const Jet k = stiffness * growth;
-  const Jet w = omega * sqrt(growth);  // of the same mass
-  if (relaxation) {
-    const model::RelaxingBody<Jet> body{k, w, zeta, load * difference_N, relaxation->share, relaxation->time_s};
-    const auto limit = body.cycle_at(speed_m_per_s);
-    return limit ? std::optional(Cycle{limit->period_s, limit->period_s - limit->slip_s}) : std::nullopt;
+  model::SlidingBody<Jet> body = body_at(speed_m_per_s, load);
+  if (body.ageing) {
+    const std::optional<Jet> aged_N = body.aged_difference_N();
+    if (!aged_N) return std::nullopt;
+    body.difference_N = *aged_N;
   }
-  const model::SlipJets<Jet> slip(k, w, zeta, load * difference_N, load * slope, alpha, speed_m_per_s);
-  const auto track = slip.solve();
-  if (!track || !track->resticks()) return std::nullopt;
-  const Jet tau_period = slip.tau_period(*track);
-  const Jet tau_slip = slip.tau_slip(track->end());
-  const Jet straight_s = (tau_period - tau_slip) / w;
-  if (!reload) return Cycle{tau_period / w, straight_s};
-  const Jet stick_m = model::reloaded_stick_m(speed_m_per_s * straight_s, load * reload->force_N / k, reload->length_m);
-  return Cycle{tau_slip / w + stick_m / speed_m_per_s, stick_m / speed_m_per_s};
+  const auto limit = body.cycle();
+  return limit ? std::optional(speed_m_per_s * limit->period_s()) : std::nullopt;
 }
 
-std::optional<Jet> SlidingModel::aged_difference_N(double speed_m_per_s, double load) const {
-  if (ageing.a == 0.0) return difference;
-  const auto stick_of = [&](double difference_N) -> std::optional<Jet> {
-    Jet held_N(difference_N, kDifference);
-    const std::optional<Cycle> limit = cycle(speed_m_per_s, load, held_N);
-    return limit ? std::optional(limit->stick_s) : std::nullopt;
-  };
-  const model::AgeingLaw law{difference.a, ageing.a, reference_stick_s_, ageing_time.a};
-  const std::optional<double> solution_N =
-      model::aged_difference_N(law, [&](double difference_N) -> std::optional<model::StickTime> {
-        const std::optional<Jet> stick_s = stick_of(difference_N);
-        if (!stick_s) return std::nullopt;
-        return model::StickTime{stick_s->a, stick_s->v(kDifference)};
-      });
-  if (!solution_N) return std::nullopt;
-  Jet stick_s = *stick_of(*solution_N);
-  const double by_difference = std::exchange(stick_s.v(kDifference), 0.0);
-  return model::aged_difference_N(*solution_N,
-                                  model::AgeingLawOf<Jet>{difference, ageing, reference_stick_s_, ageing_time}, stick_s,
-                                  by_difference);
+std::optional<model::SlidingCycle<Jet>> SlidingModel::cycle(double speed_m_per_s, double load,
+                                                            const Jet& difference_N) const {
+  model::SlidingBody<Jet> body = body_at(speed_m_per_s, load);
+  body.difference_N = load * difference_N;
+  return body.cycle();
 }
 
 }  // namespace slipfit::fit

@@ -3,18 +3,12 @@
 #include <optional>
 
 #include "fit/inference/intervals.hpp"
+#include "model/sliding.hpp"
 
 namespace slipfit::fit {
 
-/// The rise of the force after a slip: A and l.
-struct Reload {
-  Jet force_N, length_m;
-};
-
-/// Holds the share of k that relaxes and the time in which it does.
-struct Relaxation {
-  Jet share, time_s;
-};
+using Reload = model::RiseOf<Jet>;
+using Relaxation = model::RelaxationOf<Jet>;
 
 /// The coordinates in SI with their derivatives. Forces at the reference load.
 struct SlidingModel {
@@ -29,18 +23,12 @@ struct SlidingModel {
   [[nodiscard]] Jet excess_friction(double speed_m_per_s) const;
   /// V times the period of the limit cycle; empty where there is none.
   [[nodiscard]] std::optional<Jet> spacing(double speed_m_per_s, double load) const;
-
   /// The limit cycle of a given F_s - F_k(0+) at the reference load; empty where there is none.
-  struct Cycle {
-    Jet period_s, stick_s;
-  };
-  [[nodiscard]] std::optional<Cycle> cycle(double speed_m_per_s, double load, const Jet& difference_N) const;
+  [[nodiscard]] std::optional<model::SlidingCycle<Jet>> cycle(double speed_m_per_s, double load,
+                                                              const Jet& difference_N) const;
 
  private:
-  /// Returns the ratio of k at a speed to that at Units::speed_m_per_s.
-  [[nodiscard]] Jet growth_at(double speed_m_per_s) const;
-  /// After the sticks of this speed.
-  [[nodiscard]] std::optional<Jet> aged_difference_N(double speed_m_per_s, double load) const;
+  [[nodiscard]] model::SlidingBody<Jet> body_at(double speed_m_per_s, double load) const;
 
   double reference_stick_s_ = 1.0;
   double reference_speed_m_per_s_ = 1.0;

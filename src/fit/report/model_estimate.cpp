@@ -1,7 +1,6 @@
 #include "fit/report/model_estimate.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -23,21 +22,36 @@ Correlation correlation_of(const ModelEstimate& estimate, const std::vector<std:
   return correlation;
 }
 
-/// In the order of kModelParameters; of the positive ones the logarithm.
-std::array<Jet, kModelValues> values_of(const SlidingModel& model) {
-  return {log(model.stiffness),
-          log(model.omega),
-          model.zeta,
-          log(model.difference),
-          model.slope,
-          model.alpha,
-          model.ageing,
-          model.ageing_time,
-          model.reload ? model.reload->force_N : Jet(0.0),
-          model.reload ? log(model.reload->length_m) : Jet(0.0),
-          model.stiffness_exponent,
-          model.relaxation ? model.relaxation->share : Jet(0.0),
-          model.relaxation ? log(model.relaxation->time_s) : Jet(0.0)};
+/// The parameter as it enters the covariance.
+Jet entering(const SlidingModel& model, ParameterId id) {
+  switch (id) {
+    case ParameterId::Stiffness:
+      return log(model.stiffness);
+    case ParameterId::NaturalFrequency:
+      return log(model.omega);
+    case ParameterId::DampingRatio:
+      return model.zeta;
+    case ParameterId::FrictionDifference:
+      return log(model.difference);
+    case ParameterId::FrictionSlope:
+      return model.slope;
+    case ParameterId::Alpha:
+      return model.alpha;
+    case ParameterId::Ageing:
+      return model.ageing;
+    case ParameterId::AgeingTime:
+      return model.ageing_time;
+    case ParameterId::ReloadForce:
+      return model.reload->force_N;
+    case ParameterId::ReloadLength:
+      return log(model.reload->length_m);
+    case ParameterId::StiffnessExponent:
+      return model.stiffness_exponent;
+    case ParameterId::Relaxation:
+      return model.relaxation->share;
+    default:
+      return log(model.relaxation->time_s);
+  }
 }
 
 }  // namespace
@@ -47,31 +61,27 @@ std::optional<EstimatedModel> model_of(const Findings& findings, const SlidingMo
   const bool resolved =
       !findings.weakens && findings.slip_unresolved.empty() && !findings.difference_bounds && findings.in_newtons;
   if (!resolved || !damping_known || !(model.difference.a > 0.0)) return std::nullopt;
-  const std::array<Jet, kModelValues> all = values_of(model);
   ModelEstimate estimate{model.stiffness.a, model.omega.a, model.zeta.a, model.difference.a};
-  std::vector<std::size_t> used{0, 1, 2, 3};
   if (findings.law && findings.law->depends_on_speed) {
     estimate.speed_dependence = SpeedDependence{model.slope.a, model.alpha.a};
-    used.insert(used.end(), {4, 5});
   }
   if (findings.law && findings.law->ageing) {
     estimate.ageing = Ageing{model.ageing.a, findings.units.stick_s, model.ageing_time.a};
-    used.insert(used.end(), {6, 7});
   }
-  if (model.reload) {
-    estimate.reloading = Reloading{model.reload->force_N.a, model.reload->length_m.a};
-    used.insert(used.end(), {8, 9});
-  }
+  if (model.reload) estimate.reloading = Reloading{model.reload->force_N.a, model.reload->length_m.a};
   if (findings.law && findings.law->stiffness_grows) {
     estimate.stiffness_trend = StiffnessTrend{model.stiffness_exponent.a, findings.units.speed_m_per_s};
-    used.push_back(10);
   }
-  if (model.relaxation) {
-    estimate.relaxing = RelaxingSpring{model.relaxation->share.a, model.relaxation->time_s.a};
-    used.insert(used.end(), {11, 12});
+  if (model.relaxation) estimate.relaxing = RelaxingSpring{model.relaxation->share.a, model.relaxation->time_s.a};
+  std::vector<std::size_t> used;
+  for (std::size_t i = 0; i < kModelValues; ++i) {
+    if (estimate.find(kModelParameters[i]) != nullptr) used.push_back(i);
   }
   for (const std::size_t i : used) {
-    for (const std::size_t j : used) estimate.covariance[i][j] = findings.intervals.whole_covariance(all[i], all[j]);
+    for (const std::size_t j : used) {
+      estimate.covariance[i][j] = findings.intervals.whole_covariance(entering(model, kModelParameters[i]),
+                                                                      entering(model, kModelParameters[j]));
+    }
   }
   estimate.degrees_of_freedom =
       std::min(findings.intervals.degrees_of_freedom(model.difference), findings.intervals.spread().degrees_of_freedom);

@@ -98,9 +98,13 @@ std::optional<Ageing> ageing(const std::string& file, const JsonNode& document) 
   return Ageing{rate_N, stick_s->positive(), cutoff_s};
 }
 
-std::optional<Reloading> reloading(const std::string& file, const JsonNode& document) {
+bool contains(const JsonNode& document, ParameterId id) {
   const std::optional<JsonNode> correlation = document.known("correlation");
-  if (!correlation || !find_row(correlation->member("names"), key_of(ParameterId::ReloadForce))) return std::nullopt;
+  return correlation && find_row(correlation->member("names"), key_of(id));
+}
+
+std::optional<Reloading> reloading(const std::string& file, const JsonNode& document) {
+  if (!contains(document, ParameterId::ReloadForce)) return std::nullopt;
   const Reloading reloading{working_value(file, document, key_of(ParameterId::ReloadForce)),
                             working_value(file, document, key_of(ParameterId::ReloadLength))};
   if (!(reloading.force_N > 0.0)) cannot_predict(file, "reload_force_N is not above 0");
@@ -109,8 +113,7 @@ std::optional<Reloading> reloading(const std::string& file, const JsonNode& docu
 }
 
 std::optional<RelaxingSpring> relaxing(const std::string& file, const JsonNode& document) {
-  const std::optional<JsonNode> correlation = document.known("correlation");
-  if (!correlation || !find_row(correlation->member("names"), key_of(ParameterId::Relaxation))) return std::nullopt;
+  if (!contains(document, ParameterId::Relaxation)) return std::nullopt;
   const RelaxingSpring relaxing{working_value(file, document, key_of(ParameterId::Relaxation)),
                                 working_value(file, document, key_of(ParameterId::RelaxationTime))};
   if (!(relaxing.share >= 0.0 && relaxing.share < 1.0)) cannot_predict(file, "relaxation is not between 0 and 1");
@@ -214,11 +217,7 @@ FitDocument fit_document_from(const JsonNode& document, const std::string& name)
   check_known(name, parameters);
   FitDocument result;
   ModelEstimate& estimate = result.model.estimate;
-  const std::array<double*, 4> targets{&estimate.stiffness_N_per_m, &estimate.natural_frequency_rad_per_s,
-                                       &estimate.damping_ratio, &estimate.friction_difference_N};
-  for (std::size_t i = 0; i < kNeeded.size(); ++i) {
-    *targets[i] = checked_value(parameters.member(key_of(kNeeded[i])), kNeeded[i]);
-  }
+  for (const ParameterId id : kNeeded) *estimate.find(id) = checked_value(parameters.member(key_of(id)), id);
   estimate.speed_dependence = speed_dependence(name, document);
   estimate.ageing = ageing(name, document);
   estimate.reloading = reloading(name, document);
