@@ -82,7 +82,7 @@ std::optional<Classification> by_counts(const Recording& recording, const Segmen
 
 /// The spectrum shows the rhythm of the falls, whatever they scatter by.
 bool spectrum_agrees(const Segmentation& segmentation, const SpectralFrequency& spectral) {
-  if (!spectral.value_Hz || segmentation.slips.size() < thresholds::kFewestSudden) return false;
+  if (!spectral.value_Hz || segmentation.slips.size() < thresholds::kFewestCycles) return false;
   // The median: falls that were missed do not count.
   return std::abs(*spectral.value_Hz * signal::median(slip_intervals_s(segmentation)) - 1.0) < thresholds::kSameRhythm;
 }
@@ -92,7 +92,7 @@ bool spectrum_agrees(const Segmentation& segmentation, const SpectralFrequency& 
 /// clear of the noise.
 bool is_chatter(const Recording& recording, const Signals& signals) {
   const Segmentation& segmentation = signals.segmentation;
-  if (segmentation.slips.size() < thresholds::kFewestSudden) return false;
+  if (segmentation.slips.size() < thresholds::kFewestCycles) return false;
   if (!(swing_share(segmentation) > thresholds::kLargeSwing)) return false;
   if (smoothness(recording, signals.quality, segmentation) > thresholds::kSmoothMotion) return true;
   return median_drop(segmentation) > thresholds::kClearDrop * segmentation.noise &&

@@ -163,7 +163,7 @@ class BeneathHum {
 bool is_pure_wave(const Recording& recording, const Signals& signals) {
   const Segmentation& segmentation = signals.segmentation;
   const double most = thresholds::kPureWave * median_drop(segmentation);
-  if (segmentation.slips.size() < thresholds::kFewestSudden || signals.quality.noise_rms > most) return false;
+  if (segmentation.slips.size() < thresholds::kFewestCycles || signals.quality.noise_rms > most) return false;
   if (!is_sine_like(segmentation)) return false;
   const double counted_Hz = 1.0 / signal::median(slip_intervals_s(segmentation));
   const std::optional<double> rms = harmonic_residual_rms(recording, counted_Hz);

@@ -142,7 +142,7 @@ bool keeps_rhythm(const Segmentation& segmentation) {
 
 bool slips_are_sudden(const Segmentation& segmentation) {
   const std::vector<double> ratios = rises_over_falls(segmentation);
-  if (ratios.size() + 1 < thresholds::kFewestSudden || signal::median(ratios) < thresholds::kSudden) return false;
+  if (ratios.size() + 1 < thresholds::kFewestCycles || signal::median(ratios) < thresholds::kSudden) return false;
   const auto sudden = std::ranges::count_if(ratios, [](double ratio) { return ratio > 0.5 * thresholds::kSudden; });
   return static_cast<double>(sudden) >= thresholds::kSuddenShare * static_cast<double>(ratios.size());
 }

@@ -2,6 +2,8 @@
 
 #include <cstddef>
 
+#include "core/common_thresholds.hpp"
+
 /// Every number that decides what is a slip and which stretch slides; written as those of thresholds.hpp are.
 namespace slipfit::thresholds {
 
@@ -30,9 +32,6 @@ inline constexpr double kLeastAlone = 2.5;
 
 /// Drop of a counted slip over the median drop, at least. [1; convention: docs/formats.md]
 inline constexpr double kCountedDrop = 0.25;
-
-/// Hysteresis of turning points over the noise. [1; derived: noise makes no turning point of 8 standard deviations]
-inline constexpr double kNoiseTurn = 8.0;
 
 /// Fewest slips that follow each other in a stretch that slides. [count; convention]
 inline constexpr std::size_t kFewestInStretch = 4;

@@ -2,6 +2,8 @@
 
 #include <cstddef>
 
+#include "core/common_thresholds.hpp"
+
 /// Every number that decides what is a pattern on a worn surface; written as those of thresholds.hpp are.
 namespace slipfit::thresholds {
 
@@ -71,9 +73,6 @@ inline constexpr double kIrregular = 0.2;
 
 /// Relative difference of RSm and the spacing, above which it is warned of. [1; convention]
 inline constexpr double kRsmApart = 0.2;
-
-/// Difference of the spacings at both ends over its standard error, above which it is warned of. [1; convention]
-inline constexpr double kDrifts = 3.0;
 
 /// Reach of a ratio, above which no whole number is reported. [1; derived: half of it is the next number's]
 inline constexpr double kWholeReach = 0.25;

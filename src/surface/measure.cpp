@@ -189,7 +189,7 @@ void warn(Surface& found) {
   const auto& end = found.end_spacing_m;
   if (begin.value && end.value &&
       std::abs(*begin.value - *end.value) >
-          thresholds::kDrifts * std::hypot(*begin.standard_error, *end.standard_error)) {
+          thresholds::kClearSigmas * std::hypot(*begin.standard_error, *end.standard_error)) {
     found.warnings.push_back({"spacing_drifts", "the spacing changes along the track: its mean is reported"});
   }
 }
