@@ -102,7 +102,8 @@ inline constexpr double kRippleChance = 1e-6;
 /// Share of the speed by which a drive swings, above which slips are known to start at other speeds. [1; convention]
 inline constexpr double kRippleShare = 0.02;
 
-/// Factor either way, above which the band of a predicted spacing says nothing. [1; convention]
+/// Factor either way, above which the band of a predicted spacing or of the end of stick-slip says nothing; its square
+/// for an end that goes as an exponential of what ages. [1; convention]
 inline constexpr double kWidestFactor = 2.0;
 
 // ## Status of a parameter
@@ -217,13 +218,6 @@ inline constexpr double kWeakError = 0.25;
 /// Reach of alpha V, above which linear propagation does not hold. [1; calibrated: up to it bands hold 93 % or more of
 /// the motions that the covariance allows, at 1.6 88 %, at 2.4 84 % (tests/predict)]
 inline constexpr double kStraightLaw = 0.7;
-
-/// Reach of ln V of the end of stick-slip, above which it is not reported. [1; convention: a factor of two either way]
-inline constexpr double kWidestEnd = 0.6931471805599453;
-
-/// Reach of ln V of the end of stick-slip, above which it is not reported, if static friction ages. [1; convention: a
-/// factor of four, V goes as an exponential there]
-inline constexpr double kWidestAgeing = 2.0 * kWidestEnd;
 
 /// Share of the models that the data allow, below which those that stick at a speed give no intervals. [1; convention:
 /// 40 of the 800 drawn]

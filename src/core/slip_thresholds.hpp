@@ -53,10 +53,6 @@ inline constexpr std::size_t kFewestPlateauBlocks = 20;
 
 // ## What the falls show without a model
 
-/// Least scatter of ln(rise over fall) from cycle to cycle that the median of a few is held to have. [1; calibrated:
-/// 0.3 to 0.7 in measured slips and ripple]
-inline constexpr double kRatioScatter = 0.5;
-
 /// Falls below which their shape alone does not make stick-slip without a fit. [count; convention]
 inline constexpr std::size_t kFewFalls = 10;
 
@@ -71,10 +67,6 @@ inline constexpr double kSmoothMotion = 1.0;
 /// Share of the scatter of an interval that adds up from interval to interval, above which falls keep no clock's phase.
 /// [1; derived: 0 for a clock read with noise, 1 for slips]
 inline constexpr double kWalkShare = 0.2;
-
-/// Standard deviation of the time of some periods of the mains over that time, at most. [1; convention: twice 10 mHz of
-/// 50 Hz, which grids keep within a minute]
-inline constexpr double kMainsWander = 4e-4;
 
 /// Relative distance of a measured and a stated path that are the same. [1; convention: a speed is known to 1 %]
 inline constexpr double kSamePath = 0.02;

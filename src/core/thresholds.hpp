@@ -18,11 +18,8 @@ inline constexpr double kCloseFit = 0.1;
 /// Largest residual over onset force of a loose fit. [1; calibrated: as kCloseFit]
 inline constexpr double kLooseFit = 0.2;
 
-/// Largest spread of the onset force over its mean where the fit is close. [1; calibrated: as kCloseFit]
+/// Largest spread of the onset force over its mean. [1; calibrated: as kCloseFit]
 inline constexpr double kWideSpread = 0.7;
-
-/// Largest spread of the onset force over its mean where the fit is loose. [1; calibrated: as kCloseFit]
-inline constexpr double kModestSpread = 0.5;
 
 /// Smallest share of slips that come to rest in stick-slip. [1; convention]
 inline constexpr double kRestickShare = 0.8;
@@ -58,11 +55,6 @@ inline constexpr double kMainsRhythm = 5e-3;
 /// correlated noise of tests/failures]
 inline constexpr double kNoiseDrop = 14.0;
 
-/// Drop over noise, above which irregular falls of a trace that is not smooth are those of a body that moves.
-/// [1; calibrated: twice kNoiseDrop; the figure of one measured recording differs by a third between the scales at
-/// which its falls are seen]
-inline constexpr double kClearDrop = 2.0 * kNoiseDrop;
-
 /// Time of a rise over that of a fall, above which falls are sudden. [1; derived: 1 for waves and noise, at least 2.3
 /// for straight sticks where falls are quicker than kSineFall]
 inline constexpr double kSudden = 3.0;
@@ -91,9 +83,6 @@ inline constexpr double kCounted = 0.15;
 /// Drop over noise of a sample, below which noise conceals slips. [1; calibrated: simulated slips are missed below 3]
 inline constexpr double kHiding = 6.0;
 
-/// Relative standard error of a count that guides the search of the spectrum. [1; convention]
-inline constexpr double kSureCount = 0.01;
-
 /// Relative distance of frequencies that are the same. [1; convention]
 inline constexpr double kAlike = 0.05;
 
@@ -113,13 +102,6 @@ inline constexpr double kWalkGain = 1.0;
 inline constexpr double kHiddenWalk = 0.35;
 
 // ## Quality and spectrum
-
-/// Largest share of the samples that are called impulses: more is a signal with few samples a cycle. [1; convention]
-inline constexpr double kImpulseShare = 0.08;
-
-/// Step of rounded values over the noise, below which rounding does not matter. [1; derived: it adds 0.4 % to the
-/// variance]
-inline constexpr double kCoarseStep = 0.3;
 
 /// Largest share of values that differ in a recording of rounded values. [1; convention]
 inline constexpr double kDistinctShare = 0.05;
@@ -161,9 +143,6 @@ inline constexpr double kOddInterval = 0.04;
 
 /// Distance of either over the typical distance of the intervals, at least. [1; convention]
 inline constexpr double kFarOverTypical = 8.0;
-
-/// Largest share of intervals that are called broken. [1; convention]
-inline constexpr double kFewBroken = 0.25;
 
 /// Standard errors between two parts of a recording that differ. [1; derived: the best of many splits reaches 3 to 4 by
 /// chance]

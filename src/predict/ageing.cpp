@@ -211,7 +211,7 @@ CriticalPoint ageing_critical_point(const ModelEstimate& model, const Propagatio
   if (std::isinf(sticks)) return of_draws("there is stick-slip at every speed looked at");
   const double difference_N = *aged_difference_N(model, sticks);
   const Jet speed = end_speed(model, difference_N, sticks);
-  if (propagation.quantile() * propagation.standard_error(speed) > thresholds::kWidestAgeing * sticks) {
+  if (propagation.quantile() * propagation.standard_error(speed) > 2.0 * std::log(thresholds::kWidestFactor) * sticks) {
     return of_draws("ageing and damping are not known well enough to tell where stick-slip ends");
   }
   const Jet lambda = p.omega_rad_per_s * difference_N / (p.stiffness_N_per_m * speed);

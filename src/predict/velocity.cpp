@@ -113,7 +113,7 @@ CriticalPoint velocity_critical_point(const ModelEstimate& model, const Propagat
   const double by_speed = (-first.d_z0 * (slip.z0.a + 2.0 * slip.zeta.a) + first.d_rate * slip.rate.a) / critical;
   Jet speed_jet(critical);
   speed_jet.v = -slip.jet(first).v / by_speed;
-  if (propagation.quantile() * propagation.standard_error(speed_jet) > thresholds::kWidestEnd * critical ||
+  if (propagation.quantile() * propagation.standard_error(speed_jet) > std::log(thresholds::kWidestFactor) * critical ||
       propagation.law_is_open_at(critical)) {
     return CriticalPoint::unknown("damping and friction law are not known well enough to tell where stick-slip ends");
   }

@@ -58,9 +58,7 @@ std::vector<bool> find_impulses(std::span<const double> force, double noise_rms)
     if (width > 0) i += width - 1;
   }
   std::vector<bool> mask;
-  if (found.empty() ||
-      static_cast<double>(found.size()) > thresholds::kImpulseShare * static_cast<double>(force.size()))
-    return mask;
+  if (found.empty()) return mask;
   mask.resize(force.size(), false);
   for (const std::size_t i : found) mask[i] = true;
   return mask;
