@@ -6,7 +6,7 @@ import re
 import sys
 
 PROJECT = pathlib.Path(__file__).resolve().parent.parent
-SOURCES = [PROJECT / "src/core" / name for name in ("thresholds.hpp", "slip_thresholds.hpp", "fit_thresholds.hpp", "surface_thresholds.hpp")]
+SOURCES = [PROJECT / "src/core" / name for name in ("common_thresholds.hpp", "thresholds.hpp", "slip_thresholds.hpp", "fit_thresholds.hpp", "surface_thresholds.hpp")]
 TABLE = PROJECT / "docs/thresholds.md"
 CONSTANT = re.compile(r"inline constexpr [\w:]+ (k\w+) = ([^;]+);")
 
@@ -27,7 +27,7 @@ def rows(text):
 
 
 def table(texts):
-    lines = ["# Thresholds", "", "Made by `scripts/thresholds.py` from `src/core/thresholds.hpp`, `slip_thresholds.hpp`, `fit_thresholds.hpp` and `surface_thresholds.hpp`. Change a number there.", ""]
+    lines = ["# Thresholds", "", "Made by `scripts/thresholds.py` from `src/core/common_thresholds.hpp`, `thresholds.hpp`, `slip_thresholds.hpp`, `fit_thresholds.hpp` and `surface_thresholds.hpp`. Change a number there.", ""]
     for row in (row for text in texts for row in rows(text)):
         if len(row) == 1:
             lines += ["", f"## {row[0]}", "", "| name | value | unit | decides | origin |", "|---|---|---|---|---|"]

@@ -20,7 +20,7 @@ const kGermanWarnings = {
   container_cut: "Der letzte Block der TDMS-Datei ist unvollständig und wurde ausgelassen.",
   zero_force_ignored: "Ein Nullpunkt in Newton lässt sich von einer Reibungszahl nicht abziehen.",
   gaps: "Die Aufzeichnung hat zeitliche Lücken.",
-  uneven_clock: "Der Zeitschritt schwankt um mehr als 5 %.",
+  uneven_clock: "Der Zeitschritt schwankt um mehr als 2 %.",
   clipped: "Der Sensor ist übersteuert; diese Messwerte bleiben aus der Anpassung heraus.",
   impulses: "Einzelne Messwerte liegen weit von ihren Nachbarn; sie bleiben aus der Anpassung heraus.",
   quantised: "Die Kräfte sind Vielfache einer Stufe, die gröber ist als das Rauschen.",

@@ -178,8 +178,8 @@ double error_towards(const Estimate& estimate, double other) {
 bool contradict(const Estimate& first, const Estimate& second) {
   const double difference = std::abs(*first.value - *second.value);
   const double error = std::hypot(error_towards(first, *second.value), error_towards(second, *first.value));
-  return difference > thresholds::kAuditSigmas * error &&
-         difference > thresholds::kAuditShare * std::min(std::abs(*first.value), std::abs(*second.value));
+  return difference > thresholds::kSureSigmas * error &&
+         difference > thresholds::kNegligible * std::min(std::abs(*first.value), std::abs(*second.value));
 }
 
 void include(Estimate& estimate, double value) {

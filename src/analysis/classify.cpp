@@ -82,21 +82,17 @@ std::optional<Classification> by_counts(const Recording& recording, const Segmen
 
 /// The spectrum shows the rhythm of the falls, whatever they scatter by.
 bool spectrum_agrees(const Segmentation& segmentation, const SpectralFrequency& spectral) {
-  if (!spectral.value_Hz || segmentation.slips.size() < thresholds::kFewestSudden) return false;
+  if (!spectral.value_Hz || segmentation.slips.size() < thresholds::kFewestCycles) return false;
   // The median: falls that were missed do not count.
   return std::abs(*spectral.value_Hz * signal::median(slip_intervals_s(segmentation)) - 1.0) < thresholds::kSameRhythm;
 }
 
-/// Large swings of a body that moves: smooth, or with falls quicker than rises. A level that wanders is neither. Of a
-/// trace that is not smooth, how large its falls look depends on the scale at which they are seen where they are not
-/// clear of the noise.
+/// Large swings of a body that moves smoothly, as a level that wanders does not.
 bool is_chatter(const Recording& recording, const Signals& signals) {
   const Segmentation& segmentation = signals.segmentation;
-  if (segmentation.slips.size() < thresholds::kFewestSudden) return false;
+  if (segmentation.slips.size() < thresholds::kFewestCycles) return false;
   if (!(swing_share(segmentation) > thresholds::kLargeSwing)) return false;
-  if (smoothness(recording, signals.quality, segmentation) > thresholds::kSmoothMotion) return true;
-  return median_drop(segmentation) > thresholds::kClearDrop * segmentation.noise &&
-         proven_rise_over_fall(segmentation) > thresholds::kSquare;
+  return smoothness(recording, signals.quality, segmentation) > thresholds::kSmoothMotion;
 }
 
 /// Swings that are no wander of a level, and no motion that repeats.
@@ -216,14 +212,14 @@ Classification classify_by_fit(const Recording& recording, const Estimates& esti
     if (!keeps_rhythm(segmentation)) return without_model(recording, estimates.signals);
     return {MotionClass::Undetermined, fmt::format("only {} usable cycles, and they do not agree", used)};
   }
-  const bool close = e.relative_residual < thresholds::kCloseFit && e.onset_force_spread < thresholds::kWideSpread;
-  const bool loose = e.relative_residual < thresholds::kLooseFit && e.onset_force_spread < thresholds::kModestSpread;
+  const bool loose = e.relative_residual < thresholds::kLooseFit && e.onset_force_spread < thresholds::kWideSpread;
+  const bool close = loose && e.relative_residual < thresholds::kCloseFit;
   const bool died = !sudden && keeps_rhythm(segmentation) && e.span_share < thresholds::kSpanShare;
-  if (died && (close || loose || e.restick_share < thresholds::kRestickShare)) {
+  if (died && (loose || e.restick_share < thresholds::kRestickShare)) {
     return {MotionClass::OscillatorySlip, "the oscillation decays: a ring-down to steady sliding", true};
   }
   const bool rests = e.restick_share >= thresholds::kRestickShare;
-  if ((!close && !loose) || (sudden && !rests)) return without_model(recording, estimates.signals);
+  if (!loose || (sudden && !rests)) return without_model(recording, estimates.signals);
   // Whether a fit that determines nothing is loose or worse than that may hang on how its search ended.
   if (sudden && !close && !determines_slips(*estimates.fit)) return without_model(recording, estimates.signals);
   if (is_sine_like(segmentation) && keeps_mains_phase(segmentation)) {

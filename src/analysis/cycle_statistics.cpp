@@ -67,7 +67,7 @@ bool is_clocked(double drive_period_s, const Estimate& slips_Hz) {
 }  // namespace
 
 Regularity regularity_of(const CycleStatistics& cycles, const Estimate& slips_Hz, const Conditions& conditions) {
-  if (cycles.period_cv.value_or(1.0) > thresholds::kEvenRhythm) return Regularity::Irregular;
+  if (cycles.period_cv.value_or(1.0) > thresholds::kSameRhythm) return Regularity::Irregular;
   const bool clocked = conditions.drive_period_s && is_clocked(*conditions.drive_period_s, slips_Hz);
   return clocked ? Regularity::Clocked : Regularity::Regular;
 }

@@ -30,13 +30,11 @@ TimedFrequency frequency_of(const Recording& recording, const Signals& signals) 
   const Stopwatch stopwatch;
   const std::vector<bool>& impulses = signals.quality.impulse_mask;
   const Spectrum spectrum = compute_spectrum(recording, impulses);
-  // A count that scatters may be of noise or hum: it would draw the spectrum to its own multiple.
+  // A count of noise or hum would draw the spectrum to its own multiple.
   const Estimate counted = count_frequency(recording, signals.segmentation);
   const Segmentation& slips = signals.segmentation;
   const bool are_slips = slips_stand_out(slips) || (!is_faint(slips) && phase_wanders(slips) && keeps_rhythm(slips));
-  const bool sure =
-      are_slips && counted.standard_error && *counted.standard_error < thresholds::kSureCount * *counted.value;
-  const std::optional<double> hint_Hz = sure ? counted.value : std::nullopt;
+  const std::optional<double> hint_Hz = are_slips ? counted.value : std::nullopt;
   SpectralFrequency spectral = find_frequency(recording, spectrum, hint_Hz, impulses);
   return {std::move(spectral), stopwatch.elapsed_s()};
 }
@@ -163,7 +161,7 @@ class BeneathHum {
 bool is_pure_wave(const Recording& recording, const Signals& signals) {
   const Segmentation& segmentation = signals.segmentation;
   const double most = thresholds::kPureWave * median_drop(segmentation);
-  if (segmentation.slips.size() < thresholds::kFewestSudden || signals.quality.noise_rms > most) return false;
+  if (segmentation.slips.size() < thresholds::kFewestCycles || signals.quality.noise_rms > most) return false;
   if (!is_sine_like(segmentation)) return false;
   const double counted_Hz = 1.0 / signal::median(slip_intervals_s(segmentation));
   const std::optional<double> rms = harmonic_residual_rms(recording, counted_Hz);

@@ -106,7 +106,7 @@ Estimate with_relative_error(double value, double relative_error, double degrees
 
 std::optional<Estimate> fitted_frequency(const FitResult& fit, const Recording& recording) {
   const std::vector<Onset> onsets = onsets_of(fit);
-  if (onsets.size() < thresholds::kFewestOnsets) return std::nullopt;
+  if (onsets.size() < thresholds::kFewestCycles) return std::nullopt;
   const auto count = static_cast<double>(onsets.size());
   const Line line = line_through(onsets);
   // The first and the last slip are timed to a step of the clock, evenly distributed.
@@ -116,7 +116,7 @@ std::optional<Estimate> fitted_frequency(const FitResult& fit, const Recording& 
     return with_relative_error(1.0 / mean_s, std::hypot(recovery_error(fit), timing), count - 1.0);
   }
   // Between two samples of a hardly sampled slip the errors of regular cycles are no chance: they repeat.
-  if (fit.diagnostics.samples_per_slip < thresholds::kTimingSamples) return std::nullopt;
+  if (fit.diagnostics.samples_per_slip < thresholds::kShapeSamples) return std::nullopt;
   // Jumps of a sensor at the contact are timed to a step, and the error of regular ones may repeat.
   const double step = recording.conditions().force_view == ForceView::Contact ? 0.5 * timing : 0.0;
   return with_relative_error(1.0 / line.period_s, std::hypot(line.standard_error_s / line.period_s, step), count - 2.0);
@@ -236,7 +236,7 @@ FrequencyReport of_trace(const Recording& recording, const Signals& signals, con
   const std::optional<double> difference = relative_difference(spectral, counted);
   const bool agree = difference && *difference < thresholds::kAlike;
   const bool regular =
-      intervals.broken == 0 && interval.count >= 2.0 && interval.sd < thresholds::kRegular * interval.mean;
+      intervals.broken == 0 && interval.count >= 2.0 && interval.sd < thresholds::kClockScatter * interval.mean;
   // A repetition near the count may be that of the slips, with some hidden or made by hum. One far from it is another
   // thing: pick-up, ringing.
   const bool near = difference && *difference < thresholds::kAnotherThing;

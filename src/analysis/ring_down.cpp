@@ -111,7 +111,7 @@ struct Start {
 Swings swings_of(const Recording& recording, const Start& start, std::size_t width) {
   const std::vector<double> trace = signal::RunningMeans(recording.force().subspan(start.begin)).over(width);
   const double noise = start.noise / std::sqrt(static_cast<double>(width));
-  signal::TurningPoints turning_points(std::max(thresholds::kSwingOverNoise * noise, 1e-3 * start.least_fall));
+  signal::TurningPoints turning_points(std::max(thresholds::kNoiseSigmas * noise, 1e-3 * start.least_fall));
   turning_points.add(0, trace);
   const std::vector<std::size_t> turns = turning_points.turns();
   const auto size_of = [&](std::size_t i) { return std::abs(trace[turns[i + 1]] - trace[turns[i]]); };
@@ -185,7 +185,7 @@ std::optional<RingDown> find_ring_down(const Recording& recording, std::size_t b
   if (swings.half_periods_s.size() < thresholds::kFewestSwings) return std::nullopt;
   const MeanAndSpread half = describe(swings.half_periods_s);
   // Noise lengthens swings: small ones, of a few times the hysteresis, would let the ring seem to last.
-  const double small = std::log(3.0 * thresholds::kSwingOverNoise * noise);
+  const double small = std::log(3.0 * thresholds::kNoiseSigmas * noise);
   std::size_t large = swings.log_sizes.size();
   while (large > thresholds::kFewestSwings && swings.log_sizes[large - 1] < small) --large;
   swings.log_sizes.resize(large);

@@ -181,7 +181,8 @@ std::vector<ShortTest> run_short_tests(const Recording& recording, const Analysi
   if (!analysis.fit) return tests;
   const FitResult& fit = *analysis.fit;
   const std::vector<Pair> pairs = pairs_of(fit.cycles);
-  const bool scatters = fit.diagnostics.onset_force_spread > thresholds::kStandsOut * fit.diagnostics.onset_force_error;
+  const bool scatters =
+      fit.diagnostics.onset_force_spread > thresholds::kClearSigmas * fit.diagnostics.onset_force_error;
   if (pairs.size() >= thresholds::kFewestPairs) tests.push_back(test_drift(pairs, recording.duration_s()));
   if (pairs.size() >= thresholds::kFewestPairs && scatters) {
     tests.push_back(test_return_map(pairs));

@@ -116,7 +116,6 @@ Intervals intervals_of(const Recording& recording, const Segmentation& segmentat
     if (!is_broken(deviations, i, usual, deviation)) unbroken.push_back(intervals.seconds[i]);
   }
   const std::size_t broken = deviations.size() - unbroken.size();
-  if (static_cast<double>(broken) > thresholds::kFewBroken * static_cast<double>(deviations.size())) return intervals;
   return {std::move(unbroken), broken};
 }
 

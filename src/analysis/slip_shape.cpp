@@ -69,7 +69,7 @@ double proven_rise_over_fall(const Segmentation& segmentation) {
   std::vector<double> logs = rises_over_falls(segmentation);
   if (logs.empty()) return 0.0;
   for (double& ratio : logs) ratio = std::log(ratio);
-  const double scatter = std::max(thresholds::kRatioScatter, describe(logs).sd);
+  const double scatter = describe(logs).sd;
   return rise_over_fall(segmentation) *
          std::exp(-kNormalQuantile * scatter / std::sqrt(static_cast<double>(logs.size())));
 }
@@ -116,8 +116,7 @@ bool phase_wanders(const Segmentation& segmentation) {
   const double step_s =
       (slips.back().middle_s - slips.front().middle_s) / static_cast<double>(slips.back().peak - slips.front().peak);
   const double growth = 1.0 + thresholds::kWalkShare * (static_cast<double>(lag) - 1.0);
-  return many.sd > std::sqrt(growth) * std::max(one.sd, kReadingError * step_s) &&
-         many.sd > thresholds::kMainsWander * many.mean;
+  return many.sd > std::sqrt(growth) * std::max(one.sd, kReadingError * step_s);
 }
 
 bool keeps_mains_phase(const Segmentation& segmentation) {
@@ -142,7 +141,7 @@ bool keeps_rhythm(const Segmentation& segmentation) {
 
 bool slips_are_sudden(const Segmentation& segmentation) {
   const std::vector<double> ratios = rises_over_falls(segmentation);
-  if (ratios.size() + 1 < thresholds::kFewestSudden || signal::median(ratios) < thresholds::kSudden) return false;
+  if (ratios.size() + 1 < thresholds::kFewestCycles || signal::median(ratios) < thresholds::kSudden) return false;
   const auto sudden = std::ranges::count_if(ratios, [](double ratio) { return ratio > 0.5 * thresholds::kSudden; });
   return static_cast<double>(sudden) >= thresholds::kSuddenShare * static_cast<double>(ratios.size());
 }

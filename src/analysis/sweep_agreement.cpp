@@ -42,7 +42,7 @@ bool go_with_speed(std::span<const SweepEntry> entries, std::span<const Apart> r
 
 /// Returns the recording that differs most, if enough others agree.
 std::optional<Apart> furthest(std::span<const SweepEntry> entries, std::vector<Apart> recordings, Agreeing agreeing) {
-  if (recordings.size() < thresholds::kNamingRecordings) return std::nullopt;
+  if (recordings.size() < thresholds::kFewestRecordings) return std::nullopt;
   std::ranges::sort(recordings, [](const Apart& a, const Apart& b) { return a.errors > b.errors; });
   const Apart& first = recordings.front();
   const Apart& other = recordings[agreeing == Agreeing::Half ? recordings.size() / 2 : 1];

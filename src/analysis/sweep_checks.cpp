@@ -46,7 +46,7 @@ bool slides(const Recording& recording, const Analysis& analysis, double average
   if (analysis.motion == MotionClass::SteadySliding) return true;
   const std::optional<double> frequency_Hz = analysis.frequency.quoted.value;
   return analysis.motion == MotionClass::OscillatorySlip && frequency_Hz &&
-         *frequency_Hz * recording.sample_interval_s() * thresholds::kSamplesOfSwing < 1.0 &&
+         *frequency_Hz * recording.sample_interval_s() * thresholds::kWellSampled < 1.0 &&
          *frequency_Hz * average_s < thresholds::kAverageOfSwing;
 }
 

@@ -2,24 +2,16 @@
 
 #include <cstddef>
 
+#include "core/common_thresholds.hpp"
+
 /// Limits that decide in the fit and in what follows from it, in the form of thresholds.hpp.
 namespace slipfit::thresholds {
 
 // ## Which cycles and samples are fitted
 
-/// Fewest cycles of a fit. [count; derived: scatter over cycles needs two degrees of freedom]
-inline constexpr std::size_t kFewestFitted = 3;
-
-/// Standard deviations of a sample from the fit, above which it is an outlier. [1; derived: one false alarm in 150 000
-/// normal samples]
-inline constexpr double kOutlierSigmas = 4.5;
-
 /// Mean square residual of a cycle over the median of all, above which the fit leaves it out. [1; derived: 5 standard
 /// deviations on average over a whole cycle]
 inline constexpr double kUnexplainedRatio = 25.0;
-
-/// Relative spread of the time step, above which samples on steep parts weigh less. [1; convention]
-inline constexpr double kWeighedClock = 0.02;
 
 // ## Level and mains in the fit
 
@@ -38,14 +30,6 @@ inline constexpr double kWanderingShare = 0.03;
 /// Residual of that polynomial over the noise, above which the level wanders. [1; convention]
 inline constexpr double kWanderingNoises = 10.0;
 
-/// Samples in half a period of slips whose middles show the level. [count; derived: peaks are met to (pi / 20)^2 / 2 =
-/// 1 %]
-inline constexpr double kWellSampled = 10.0;
-
-/// Gain beyond BIC that one more term of the level polynomial needs. [1; convention: "very strong" evidence, so that
-/// scatter alone is not called drift]
-inline constexpr double kDriftHandicap = 10.0;
-
 /// Power of a mains line in the residuals over its surroundings, above which it is fitted. [1; derived: 2e-9 by chance
 /// in white noise]
 inline constexpr double kSureHum = 20.0;
@@ -57,7 +41,7 @@ inline constexpr double kSureLine = 70.0;
 /// [1; derived: exceeded with exp(-0.25 n) by chance with n cycles]
 inline constexpr double kNoPhase = 0.5;
 
-/// Fewest cycles with which a line is sought at any frequency. [count; derived: exp(-0.25 n) is a percent of
+/// Fewest cycles with which a line, or a wave of the level, is sought. [count; derived: exp(-0.25 n) is a percent of
 /// chance there]
 inline constexpr std::size_t kFewestOfLine = 16;
 
@@ -74,14 +58,6 @@ inline constexpr double kBlurringHum = 0.5;
 
 // ## Tier
 
-/// AICc by which a richer tier has to be better. [1; convention: 10 is "essentially no support" for the poorer one,
-/// Burnham and Anderson 2002]
-inline constexpr double kTierPrice = 10.0;
-
-/// AICc by which one of two minima of the same law is ahead where the other one is ruled out: much averaging of quick
-/// slips looks like little of slow ones. [1; convention: as kTierPrice]
-inline constexpr double kSurelyAhead = 10.0;
-
 /// Samples of a slip, below which w_n and zeta have no single minimum. [count; calibrated: simulated slips of few
 /// samples]
 inline constexpr double kResolvedSamples = 1.5;
@@ -93,30 +69,14 @@ inline constexpr double kPinningDamping = 0.01;
 /// 0.5]
 inline constexpr double kTellingDamping = 0.1;
 
-/// Standard errors of the best zeta below 0, above which a slip is no damped oscillation. [1; derived: 0.6 % by chance
-/// at zeta = 0]
-inline constexpr double kNegativeSigmas = 2.5;
-
 // ## Intervals
-
-/// Standard errors of the correlation of neighbouring residuals, and of the logarithm of the ratio of the residual
-/// variances in slips and sticks, above which intervals come from the scatter over the cycles. [1; derived: 6e-5 by
-/// chance]
-inline constexpr double kWhiteSigmas = 4.0;
 
 /// Relative standard error of alpha, from which on its interval comes from a profile. [1; calibrated: sweep_coverage]
 inline constexpr double kKnownRate = 0.15;
 
-/// Standard errors over the cycles of the mean residual in a part of the slip, above which the slip is not shaped like
-/// the model's. [1; derived: 5e-5 by chance in eight parts]
-inline constexpr double kMisfitSigmas = 4.5;
-
 /// Chance of a mean residual in one of eight parts of the slip, below which an average does not explain the slips.
-/// [1; derived: that of kMisfitSigmas for many cycles]
+/// [1; derived: that of kOfManySigmas for many cycles, in eight parts]
 inline constexpr double kMisfitChance = 5e-5;
-
-/// Mean residual in a part of the slip over the onset force, above which it matters. [1; convention]
-inline constexpr double kMisfitShare = 0.01;
 
 /// Stacked residual of the slips under friction that weakens over a slip distance over that under Coulomb friction, at
 /// most. [1; convention: what is left is smaller than what is explained]
@@ -126,30 +86,12 @@ inline constexpr double kHalvedStack = 0.5;
 /// model's, in eight stretches]
 inline constexpr double kChanceStack = 1.5;
 
-/// Fewest samples of a slip that determine how its friction weakens. [count; derived: onset, fall and end are two each]
-inline constexpr double kShapeSamples = 6.0;
-
-/// Standard errors between the slopes of early and late sticks, above which sticks bend. [1; derived: 0.3 % by chance]
-inline constexpr double kBendSigmas = 3.0;
-
-/// Standard errors of the rate of the force level, above which it is a trend; of the share of the level's slope that
-/// sticks contain, above which a reading is excluded. [1; derived: 6e-5 by chance]
-inline constexpr double kTrendSigmas = 4.0;
-
 /// Share of a trend that a measured load leaves unexplained, below which the trend is friction. [1; convention: a
 /// sensor zero of a tenth of the force does as much]
 inline constexpr double kLoadShare = 0.1;
 
 /// Least k of another reading of a trend, over that of the fit. [1; convention: a trend as steep as the sticks]
 inline constexpr double kLeastStiffness = 0.01;
-
-/// Standard errors between two values of one quantity, above which they contradict each other. [1; derived: 6e-5 by
-/// chance]
-inline constexpr double kAuditSigmas = 4.0;
-
-/// Relative difference of two values of one quantity, up to which they do not contradict each other, and of the slopes
-/// of the halves of a stick. [1; convention]
-inline constexpr double kAuditShare = 0.01;
 
 /// Relative standard error of a mass that is stated without one (Conditions::mass_standard_error_kg). [1; convention]
 inline constexpr double kUsualMassError = 0.02;
@@ -160,13 +102,11 @@ inline constexpr double kRippleChance = 1e-6;
 /// Share of the speed by which a drive swings, above which slips are known to start at other speeds. [1; convention]
 inline constexpr double kRippleShare = 0.02;
 
-/// Factor either way, above which the band of a predicted spacing says nothing. [1; convention]
+/// Factor either way, above which the band of a predicted spacing or of the end of stick-slip says nothing; its square
+/// for an end that goes as an exponential of what ages. [1; convention]
 inline constexpr double kWidestFactor = 2.0;
 
 // ## Status of a parameter
-
-/// Fewest cycles of an identified parameter. [count; derived: below it a scatter is known to a factor of two only]
-inline constexpr std::size_t kIdentifyingCycles = 5;
 
 /// Fewest samples of a slip whose shape identifies a parameter. [count; calibrated: tests/failures]
 inline constexpr double kSlipSamples = 3.0;
@@ -175,30 +115,14 @@ inline constexpr double kSlipSamples = 3.0;
 /// standard errors]
 inline constexpr double kTellingError = 1.0 / 3.0;
 
-/// Standard errors of the rounding of the slips, above which samples were averaged. [1; derived: 0.6 % by chance]
-inline constexpr double kRoundedSigmas = 2.5;
-
 /// Share of the variance of an instrument's impulse response for which its unknown shape counts. [1; convention: the
 /// variance is all that counts to second order]
 inline constexpr double kKernelShape = 0.03;
 
-/// A term of the model over its standard error, at least. [1; convention]
-inline constexpr double kSureTerm = 3.0;
-
-/// Relative effect on w_n of averaging over a step of the clock, above which w_n and m are not identified. [1;
-/// convention]
-inline constexpr double kAverageShare = 0.01;
-
 /// Reduced chi2 above which residuals are warned of. [1; calibrated: at most 1.21 for 480 recordings inside the model]
 inline constexpr double kLargeChi2 = 2.0;
 
-/// Chance of white residuals, below which large ones leave nothing of the slip identified. [1; convention]
-inline constexpr double kColouredChance = 1e-3;
-
 // ## Sweeps
-
-/// Chance below which recordings do not share a level or static friction, or cycles a ramp. [1; convention]
-inline constexpr double kShareChance = 1e-3;
 
 /// Ratio of frequencies at one speed (to a ratio of 1.3) from which on the speeds are doubted: F_s - F_k and k would
 /// have to scatter as much. [1; convention]
@@ -208,16 +132,9 @@ inline constexpr double kOneSpeedFrequencies = 2.0;
 /// [1; convention]
 inline constexpr double kOtherLawShare = 0.02;
 
-/// Chance below which friction depends on the speed. [1; convention]
-inline constexpr double kLawChance = 0.01;
-
 /// Reduced chi2 of a sweep, above which its model leaves something out. [1; convention: the noise is that of each
 /// recording's own fit]
 inline constexpr double kSweepMisfit = 1.5;
-
-/// Standard errors that leaving out a recording may change, above which the recordings disagree. [1; derived: 7e-6 by
-/// chance for each]
-inline constexpr double kShiftSigmas = 4.5;
 
 /// Averaging time of the samples times w_n, above which a stated mass gives w_n: the fall of an averaged slip is then
 /// longer by the average than by itself. [1; derived]
@@ -234,9 +151,6 @@ inline constexpr double kContradictedMass = 1.25;
 /// the rig would agree by chance. [1; derived: 3 of them are a factor of 1.6]
 inline constexpr double kTellingFrequency = 0.15;
 
-/// Chance below which slips and a ring-down are not one motion. [1; convention]
-inline constexpr double kMotionChance = 0.01;
-
 /// Chance below which static friction that differs between the speeds ages. [1; convention: static friction of polymers
 /// and rubber does]
 inline constexpr double kAgeingChance = 0.05;
@@ -250,10 +164,6 @@ inline constexpr double kCutoffStickRatio = 30.0;
 
 /// Least recordings that show a trend of static friction over the speed. [1; convention: two always lie on a line]
 inline constexpr std::size_t kTrendRecordings = 3;
-
-/// Least number of recordings that show a dependence of k on speed. [1; derived: a line through three has one degree of
-/// freedom left]
-inline constexpr std::size_t kStiffnessRecordings = 4;
 
 /// Least ratio of their speeds for either. [1; convention]
 inline constexpr double kTrendSpeedRatio = 2.0;
@@ -275,10 +185,6 @@ inline constexpr double kGoesWithSpeed = 0.9;
 
 /// ln of the ratio of speeds from which on an end of the sweep determines how far its law extends. [1; convention]
 inline constexpr double kBeyondDistance = 0.1;
-
-/// Least number of recordings of which one can be identified as wrong. [1; convention: of three, any two may agree by
-/// chance]
-inline constexpr std::size_t kNamingRecordings = 4;
 
 // ## Predictions
 
@@ -312,13 +218,6 @@ inline constexpr double kWeakError = 0.25;
 /// Reach of alpha V, above which linear propagation does not hold. [1; calibrated: up to it bands hold 93 % or more of
 /// the motions that the covariance allows, at 1.6 88 %, at 2.4 84 % (tests/predict)]
 inline constexpr double kStraightLaw = 0.7;
-
-/// Reach of ln V of the end of stick-slip, above which it is not reported. [1; convention: a factor of two either way]
-inline constexpr double kWidestEnd = 0.6931471805599453;
-
-/// Reach of ln V of the end of stick-slip, above which it is not reported, if static friction ages. [1; convention: a
-/// factor of four, V goes as an exponential there]
-inline constexpr double kWidestAgeing = 2.0 * kWidestEnd;
 
 /// Share of the models that the data allow, below which those that stick at a speed give no intervals. [1; convention:
 /// 40 of the 800 drawn]

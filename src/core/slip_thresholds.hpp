@@ -2,6 +2,8 @@
 
 #include <cstddef>
 
+#include "core/common_thresholds.hpp"
+
 /// Every number that decides what is a slip and which stretch slides; written as those of thresholds.hpp are.
 namespace slipfit::thresholds {
 
@@ -31,9 +33,6 @@ inline constexpr double kLeastAlone = 2.5;
 /// Drop of a counted slip over the median drop, at least. [1; convention: docs/formats.md]
 inline constexpr double kCountedDrop = 0.25;
 
-/// Hysteresis of turning points over the noise. [1; derived: noise makes no turning point of 8 standard deviations]
-inline constexpr double kNoiseTurn = 8.0;
-
 /// Fewest slips that follow each other in a stretch that slides. [count; convention]
 inline constexpr std::size_t kFewestInStretch = 4;
 
@@ -54,10 +53,6 @@ inline constexpr std::size_t kFewestPlateauBlocks = 20;
 
 // ## What the falls show without a model
 
-/// Least scatter of ln(rise over fall) from cycle to cycle that the median of a few is held to have. [1; calibrated:
-/// 0.3 to 0.7 in measured slips and ripple]
-inline constexpr double kRatioScatter = 0.5;
-
 /// Falls below which their shape alone does not make stick-slip without a fit. [count; convention]
 inline constexpr std::size_t kFewFalls = 10;
 
@@ -72,10 +67,6 @@ inline constexpr double kSmoothMotion = 1.0;
 /// Share of the scatter of an interval that adds up from interval to interval, above which falls keep no clock's phase.
 /// [1; derived: 0 for a clock read with noise, 1 for slips]
 inline constexpr double kWalkShare = 0.2;
-
-/// Standard deviation of the time of some periods of the mains over that time, at most. [1; convention: twice 10 mHz of
-/// 50 Hz, which grids keep within a minute]
-inline constexpr double kMainsWander = 4e-4;
 
 /// Relative distance of a measured and a stated path that are the same. [1; convention: a speed is known to 1 %]
 inline constexpr double kSamePath = 0.02;

@@ -2,6 +2,8 @@
 
 #include <cstddef>
 
+#include "core/common_thresholds.hpp"
+
 /// Every number that decides a kind of motion, a status, a tier, a warning or which frequency is quoted. Each comment
 /// says what is compared, and in brackets unit and origin: derived (from the model), convention, or calibrated (on
 /// what). scripts/thresholds.py makes docs/thresholds.md from this file.
@@ -16,11 +18,8 @@ inline constexpr double kCloseFit = 0.1;
 /// Largest residual over onset force of a loose fit. [1; calibrated: as kCloseFit]
 inline constexpr double kLooseFit = 0.2;
 
-/// Largest spread of the onset force over its mean where the fit is close. [1; calibrated: as kCloseFit]
+/// Largest spread of the onset force over its mean. [1; calibrated: as kCloseFit]
 inline constexpr double kWideSpread = 0.7;
-
-/// Largest spread of the onset force over its mean where the fit is loose. [1; calibrated: as kCloseFit]
-inline constexpr double kModestSpread = 0.5;
 
 /// Smallest share of slips that come to rest in stick-slip. [1; convention]
 inline constexpr double kRestickShare = 0.8;
@@ -45,10 +44,6 @@ inline constexpr double kPureWave = 1e-4;
 /// sticks, below which the two cannot be distinguished. [1; convention: odds of ten to one]
 inline constexpr double kEvidence = 4.6;
 
-/// Scatter of the periods, over the period, below which what repeats keeps time like a clock. [1; convention: pick-up
-/// and drives scatter by less, friction by more]
-inline constexpr double kClockScatter = 0.01;
-
 /// Share of the recording that cycles have to cover: swings that end earlier died out. [1; convention]
 inline constexpr double kSpanShare = 0.5;
 
@@ -60,20 +55,12 @@ inline constexpr double kMainsRhythm = 5e-3;
 /// correlated noise of tests/failures]
 inline constexpr double kNoiseDrop = 14.0;
 
-/// Drop over noise, above which irregular falls of a trace that is not smooth are those of a body that moves.
-/// [1; calibrated: twice kNoiseDrop; the figure of one measured recording differs by a third between the scales at
-/// which its falls are seen]
-inline constexpr double kClearDrop = 2.0 * kNoiseDrop;
-
 /// Time of a rise over that of a fall, above which falls are sudden. [1; derived: 1 for waves and noise, at least 2.3
 /// for straight sticks where falls are quicker than kSineFall]
 inline constexpr double kSudden = 3.0;
 
 /// Smallest share of falls with half of kSudden. [1; convention]
 inline constexpr double kSuddenShare = 0.9;
-
-/// Fewest falls that are called sudden. [count; convention]
-inline constexpr std::size_t kFewestSudden = 5;
 
 /// Time of a rise over that of a fall, below which a trace rises as suddenly as it falls. [1; derived: 1 for square
 /// waves]
@@ -82,23 +69,13 @@ inline constexpr double kSquare = 1.3;
 /// Scatter over mean of the intervals of what repeats. [1; convention: 1 for random times, 0.5 for noise]
 inline constexpr double kRhythm = 0.25;
 
-/// Relative distance of spectrum and count that show the same rhythm. [1; convention]
-inline constexpr double kSameRhythm = 0.1;
-
 /// Fewest samples of a recording that is analysed. [count; convention: two periods of eight samples]
 inline constexpr std::size_t kFewestSamples = 16;
-
-/// Fewest slips that make a kind of motion. [count; convention]
-inline constexpr std::size_t kFewestSlips = 3;
 
 /// Fewest samples of a cycle that shows slips. [count; derived: rise and fall take two each]
 inline constexpr double kFewestCycleSamples = 4.0;
 
 // ## Quoted frequency
-
-/// Scatter over mean of the intervals, above which harmonic least squares is no better than the count. [1; calibrated:
-/// docs/accuracy.md]
-inline constexpr double kRegular = 0.01;
 
 /// Scatter over mean of the intervals, above which slips are counted even if there is a fit. [1; convention]
 inline constexpr double kCounted = 0.15;
@@ -106,21 +83,12 @@ inline constexpr double kCounted = 0.15;
 /// Drop over noise of a sample, below which noise conceals slips. [1; calibrated: simulated slips are missed below 3]
 inline constexpr double kHiding = 6.0;
 
-/// Relative standard error of a count that guides the search of the spectrum. [1; convention]
-inline constexpr double kSureCount = 0.01;
-
 /// Relative distance of frequencies that are the same. [1; convention]
 inline constexpr double kAlike = 0.05;
 
 /// Spectrum over count less one, above which the repetition is another thing than the slips (pick-up, ringing).
 /// [1; convention]
 inline constexpr double kAnotherThing = 2.0;
-
-/// Fewest fitted onsets that give a frequency. [count; convention]
-inline constexpr std::size_t kFewestOnsets = 5;
-
-/// Fewest samples of a slip that times regular cycles: the error of timing repeats below. [count; convention]
-inline constexpr double kTimingSamples = 6.0;
 
 /// Spread of the onset force over its error, above which periods scatter. [1; derived: beyond chance from 10 cycles on]
 inline constexpr double kOrdinarySpread = 2.0;
@@ -135,17 +103,6 @@ inline constexpr double kHiddenWalk = 0.35;
 
 // ## Quality and spectrum
 
-/// Deviation of an isolated sample from both neighbours over the noise, above which it is an impulse. [1; derived:
-/// white noise of a million samples stays below 5, measured noise has tails]
-inline constexpr double kImpulse = 8.0;
-
-/// Largest share of the samples that are called impulses: more is a signal with few samples a cycle. [1; convention]
-inline constexpr double kImpulseShare = 0.08;
-
-/// Step of rounded values over the noise, below which rounding does not matter. [1; derived: it adds 0.4 % to the
-/// variance]
-inline constexpr double kCoarseStep = 0.3;
-
 /// Largest share of values that differ in a recording of rounded values. [1; convention]
 inline constexpr double kDistinctShare = 0.05;
 
@@ -155,9 +112,6 @@ inline constexpr double kOffLattice = 0.1;
 /// Samples at such a level over those at the next value. [1; convention]
 inline constexpr double kClippedPile = 6.0;
 
-/// Probability that noise shows such a comb somewhere, below which a repetition is found. [1; convention]
-inline constexpr double kSignificant = 0.01;
-
 /// Share of the energy of a line at the mains that one quarter of the recording holds, above which it is no mains.
 /// [1; derived: a line that is there for half of the recording has at most half of its energy in each of two quarters]
 inline constexpr double kBurst = 0.7;
@@ -166,9 +120,6 @@ inline constexpr double kBurst = 0.7;
 inline constexpr double kFewestPeriods = 2.5;
 
 // ## Slips and what changes on the way
-
-/// Scatter over mean of the intervals of slips that keep a rhythm. [1; convention]
-inline constexpr double kEvenRhythm = 0.1;
 
 /// Largest number of drive periods to a slip. [count; convention]
 inline constexpr double kMostDriveSteps = 10.0;
@@ -192,9 +143,6 @@ inline constexpr double kOddInterval = 0.04;
 
 /// Distance of either over the typical distance of the intervals, at least. [1; convention]
 inline constexpr double kFarOverTypical = 8.0;
-
-/// Largest share of intervals that are called broken. [1; convention]
-inline constexpr double kFewBroken = 0.25;
 
 /// Standard errors between two parts of a recording that differ. [1; derived: the best of many splits reaches 3 to 4 by
 /// chance]
@@ -222,9 +170,6 @@ inline constexpr double kReleased = 0.2;
 /// Fewest half periods of a ring-down, the first one aside. [count; convention]
 inline constexpr std::size_t kFewestSwings = 4;
 
-/// Swing of a ring-down over the noise. [1; derived: noise makes no turning point of 8 standard deviations]
-inline constexpr double kSwingOverNoise = 8.0;
-
 /// Natural frequency of the slips over that of the rig's free ring-down, below which slips are not inertial.
 /// [1; convention: stiffness and mass differ by less than a factor of four between the two]
 inline constexpr double kInertialSlip = 0.5;
@@ -241,20 +186,11 @@ inline constexpr double kClearlyBetter = 0.95;
 /// and the slip takes some]
 inline constexpr double kLagsOfCycle = 14.0;
 
-/// Relative spread of the time step, above which the clock is uneven. [1; convention]
-inline constexpr double kUnevenClock = 0.05;
-
-/// Chance of a short test, below which it is proven. [1; convention]
-inline constexpr double kProven = 1e-3;
-
 /// Fewest pairs of cycles of a short test. [count; convention]
 inline constexpr std::size_t kFewestPairs = 8;
 
-/// Fewest slips in which a wave of the level is looked for. [count; convention]
-inline constexpr std::size_t kFewestOfWave = 16;
-
-/// Smallest swing of such a wave over the mean drop. [1; convention: between two samples of a slip a peak is read too
-/// low by up to as much]
+/// Smallest swing of a wave of the level over the mean drop. [1; convention: between two samples of a slip a peak is
+/// read too low by up to as much]
 inline constexpr double kSmallestWave = 0.05;
 
 /// Largest relative difference of what two recordings repeat over, for it to be one thing. [1; convention]
@@ -266,10 +202,6 @@ inline constexpr double kFewestWaves = 3.0;
 /// Most waves over slips. [1; derived: beyond half of the slips two frequencies look alike]
 inline constexpr double kMostWaves = 0.45;
 
-/// Spread of the onset forces over the error of one, below which they reflect the noise, not the cycles.
-/// [1; convention]
-inline constexpr double kStandsOut = 3.0;
-
 /// Frequency of the slips over the sensor's resonance, from which on they are shown too large. [1; derived: by
 /// 1 / (1 - 0.09), 10 %, there]
 inline constexpr double kNearResonance = 0.3;
@@ -279,9 +211,6 @@ inline constexpr double kLeastSpeedRatio = 1.3;
 
 /// Samples of a fall, below which it is as long as the clock makes it. [count; convention]
 inline constexpr double kSamplesOfFall = 4.0;
-
-/// Samples of a swing, below which straight sticks cannot be distinguished from it. [count; convention]
-inline constexpr double kSamplesOfSwing = 10.0;
 
 /// Averaging time of the sensor over the period of a swing, above which straight sticks cannot be distinguished from
 /// it. [1; derived: a fall lasts as long as the average at least, and its rounded ends as long again on either side]

@@ -158,7 +158,7 @@ class Assembler {
       findings.slip_doubt = fit::kFittedAverage;
       findings.warnings.push_back(fit::averaged_warning(average->seconds));
     }
-    if (!(averaging_ > thresholds::kAverageShare)) return;
+    if (!(averaging_ > thresholds::kNegligible)) return;
     if (!data_.rounding_s2) {
       findings.frequency_doubt = fit::averaging_doubt(averaging_);
       return;

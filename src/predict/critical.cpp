@@ -223,7 +223,7 @@ CriticalPoint point_of(const ModelEstimate& model, const End& end) {
     return {unknown(reason), {0.0, std::nullopt, std::nullopt, reason}};
   }
   const Propagation propagation(model);
-  const double widest = model.ageing ? thresholds::kWidestAgeing : thresholds::kWidestEnd;
+  const double widest = (model.ageing ? 2.0 : 1.0) * std::log(thresholds::kWidestFactor);
   const bool is_wide =
       !end.speed ||
       (has_law(model) && propagation.quantile() * propagation.standard_error(*end.speed) > widest * end.speed_m_per_s);

@@ -95,7 +95,7 @@ double rate(const Turn& from, const Turn& to) {
 }
 
 Falls::Falls(const Means& trace, double noise) {
-  const auto smallest_of = [noise](double range) { return std::max(thresholds::kNoiseTurn * noise, 1e-9 * range); };
+  const auto smallest_of = [noise](double range) { return std::max(thresholds::kNoiseSigmas * noise, 1e-9 * range); };
   // Where there is no noise the range has to be known beforehand: every rounding error would turn.
   smallest_ = smallest_of(noise > 0.0 ? 0.0 : range_of(trace));
   Passed passed = pass(trace, smallest_);

@@ -29,8 +29,8 @@ bool stands_out(std::span<const double> force, std::size_t i, std::size_t width,
   const Side left = side_of(force[i - 1], force[i - 2], force[i - 3]);
   const Side right = side_of(after[0], after[1], after[2]);
   const double level = 0.5 * (left.median + right.median);
-  const double allowed =
-      thresholds::kImpulse * noise_rms + std::abs(left.median - right.median) + 1.5 * std::min(left.range, right.range);
+  const double allowed = thresholds::kNoiseSigmas * noise_rms + std::abs(left.median - right.median) +
+                         1.5 * std::min(left.range, right.range);
   const double first = force[i] - level;
   const double last = force[i + width - 1] - level;
   return std::min(std::abs(first), std::abs(last)) > allowed && (first > 0.0) == (last > 0.0);
@@ -40,7 +40,7 @@ bool stands_out(std::span<const double> force, std::size_t i, std::size_t width,
 
 std::vector<bool> find_impulses(std::span<const double> force, double noise_rms) {
   std::vector<std::size_t> found;
-  const double least_step = 0.5 * thresholds::kImpulse * noise_rms;
+  const double least_step = 0.5 * thresholds::kNoiseSigmas * noise_rms;
   for (std::size_t i = 3; i + 4 < force.size(); ++i) {
     constexpr std::size_t kBlock = 16;  // nearly everywhere nothing begins in a whole block
     using Block = Eigen::Map<const Eigen::Array<double, kBlock, 1>>;
@@ -58,9 +58,7 @@ std::vector<bool> find_impulses(std::span<const double> force, double noise_rms)
     if (width > 0) i += width - 1;
   }
   std::vector<bool> mask;
-  if (found.empty() ||
-      static_cast<double>(found.size()) > thresholds::kImpulseShare * static_cast<double>(force.size()))
-    return mask;
+  if (found.empty()) return mask;
   mask.resize(force.size(), false);
   for (const std::size_t i : found) mask[i] = true;
   return mask;

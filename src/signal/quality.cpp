@@ -73,7 +73,7 @@ Quality assess_quality(const Recording& recording) {
   const std::optional<double> step = signal::lattice_step(force);
   quality.noise_rms = noise_of(force);
   if (quality.noise_rms <= 0.0) quality.noise_rms = noise_of_held(force);
-  if (step && *step > thresholds::kCoarseStep * quality.noise_rms) {
+  if (step) {
     quality.quantisation_step = step;
     quality.noise_rms = std::max(quality.noise_rms, *step / std::sqrt(12.0));  // rounding alone makes that much
   }

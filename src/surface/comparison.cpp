@@ -19,7 +19,7 @@ double reach_towards(const Estimate& from, double other) {
 
 /// A coarse pattern of every second, third, ... slip. A whole number is reported only if its neighbours fit worse.
 std::string ratio_verdict(double ratio, double relative_reach) {
-  if (std::abs(ratio - 1.0) < thresholds::kNearlySame) {
+  if (std::abs(ratio - 1.0) < thresholds::kSameSpacing) {
     return fmt::format(
         "nearly the same: the spacings differ by {:.2g} %, more than their uncertainties allow; an inaccurate stated "
         "speed is a possible reason (--speed-uncertainty)",
@@ -30,7 +30,7 @@ std::string ratio_verdict(double ratio, double relative_reach) {
     const double whole = std::round(times);
     const double reach = times * relative_reach;
     const bool is_known = reach <= thresholds::kWholeReach && std::abs(times - whole) <= std::max(reach, 1e-9);
-    if (!is_known || whole < 2.0 || whole > thresholds::kMostSlipsToRidge) continue;
+    if (!is_known || whole < 2.0) continue;
     return is_coarser ? fmt::format(
                             "the pattern is {:.0f} times as coarse as the slips: several slips make one ridge, or "
                             "every pass leaves its own",

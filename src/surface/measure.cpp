@@ -23,9 +23,9 @@ using surface::Pattern;
 constexpr Range kPositive{1e-300, 1e300};
 
 Error too_few_ridges(const Profile& profile, double count) {
-  return {"too_few_ridges", fmt::format("{}: the track has only about {:.0f} ridges; fewer than {:.0f} do not "
+  return {"too_few_ridges", fmt::format("{}: the track has only about {:.0f} ridges; fewer than {} do not "
                                         "determine the spacing; measure a longer track",
-                                        profile.file, count, thresholds::kFewestOnTrack)};
+                                        profile.file, count, thresholds::kFewestRidges)};
 }
 
 std::optional<Error> refusal(const Profile& profile) {
@@ -189,7 +189,7 @@ void warn(Surface& found) {
   const auto& end = found.end_spacing_m;
   if (begin.value && end.value &&
       std::abs(*begin.value - *end.value) >
-          thresholds::kDrifts * std::hypot(*begin.standard_error, *end.standard_error)) {
+          thresholds::kClearSigmas * std::hypot(*begin.standard_error, *end.standard_error)) {
     found.warnings.push_back({"spacing_drifts", "the spacing changes along the track: its mean is reported"});
   }
 }
@@ -203,7 +203,7 @@ Result<Surface> measure_surface(const Profile& profile) {
   Surface found;
   if (!patterns.empty() && patterns.front().comb_spacing > 0.0) {
     const double count = static_cast<double>(heights.size()) / patterns.front().comb_spacing;
-    if (count < thresholds::kFewestOnTrack) return too_few_ridges(profile, count);
+    if (count < static_cast<double>(thresholds::kFewestRidges)) return too_few_ridges(profile, count);
   }
   conclude(profile, patterns, found);
   const double length_m = profile.pitch_m * static_cast<double>(heights.size());

@@ -89,8 +89,6 @@ struct CombSpacing {
   /// Scatter of the distances over their mean, as the wandering of its phase has it.
   [[nodiscard]] double scatter() const { return standard_error / value * std::sqrt(ridges); }
   [[nodiscard]] bool is_sure() const { return chance < thresholds::kSureComb; }
-  /// A phase that wanders by more than can be followed has lost count of the ridges.
-  [[nodiscard]] bool is_followed() const { return is_even || scatter() < thresholds::kFollowedScatter; }
   [[nodiscard]] Clock clock() const {
     const double miscount = is_even ? 0.0 : miscounted(scatter()) * value;
     return {value, std::hypot(standard_error, miscount)};
@@ -126,7 +124,7 @@ std::optional<MeanSpacing> mean_of_halves(std::span<const double> heights, const
   std::vector<double> found;
   for (const auto part : {heights.first(half), heights.last(half)}) {
     const auto seen = Combs(part).find(comb.value);
-    if (!seen || std::abs(seen->value / comb.value - 1.0) > thresholds::kCombAgrees) return std::nullopt;
+    if (!seen || std::abs(seen->value / comb.value - 1.0) > thresholds::kSameSpacing) return std::nullopt;
     found.push_back(seen->value);
   }
   const auto [value, known] = comb.clock();
@@ -164,28 +162,20 @@ Pattern measured(std::span<const double> heights, const Combs& combs, const Patt
   const double distance = mean_distance(seen);
   std::vector<Pattern> looks = looked_at(heights, distance);
   std::erase_if(
-      looks, [&](const Pattern& p) { return std::abs(mean_distance(p) / distance - 1.0) > thresholds::kSameRidges; });
+      looks, [&](const Pattern& p) { return std::abs(mean_distance(p) / distance - 1.0) > thresholds::kSameSpacing; });
   const auto comb = combs.find(distance);
-  const bool agrees = comb && comb->is_sure() && std::abs(comb->value / distance - 1.0) < thresholds::kCombAgrees;
+  const bool agrees = comb && comb->is_sure() && std::abs(comb->value / distance - 1.0) < thresholds::kSameSpacing;
   std::optional<Clock> clock;
-  if (agrees && comb->is_followed()) clock = comb->clock();
+  if (agrees) clock = comb->clock();
   if (looks.empty() && clock) looks = {seen};
   Pattern pattern = looks.empty() ? seen : choose(std::move(looks), clock);
-  if (agrees && comb->is_even &&
-      comb->scatter() <
-          thresholds::kEvenScatter) {  // what the distances scatter by is roughness, in their places or their count
+  if (agrees && comb->is_even) {  // what the distances scatter by is roughness, in their places or their count
     if (const auto mean = mean_of_halves(heights, *comb)) {
       pattern.spacing = mean;
       pattern.is_from_comb = true;
     }
   }
-  const bool is_hidden = pattern.ridges.smoothed_over > thresholds::kMuchSmoothing * mean_distance(pattern);
-  if (is_hidden && !agrees) {
-    pattern.spacing = std::nullopt;
-    pattern.doubt = "roughness conceals the number of ridges";
-  } else if (!pattern.spacing) {
-    pattern.doubt = "the ridges are found at one smoothing width only";
-  }
+  if (!pattern.spacing) pattern.doubt = "the ridges are found at one smoothing width only";
   return pattern;
 }
 
@@ -193,7 +183,7 @@ Pattern measured(std::span<const double> heights, const Combs& combs, const Patt
 Pattern most_regular(std::span<const double> heights, double distance) {
   Pattern best;
   for (Pattern& look : looked_at(heights, distance)) {
-    const bool same = std::abs(mean_distance(look) / distance - 1.0) < thresholds::kCombRidges;
+    const bool same = std::abs(mean_distance(look) / distance - 1.0) < thresholds::kSameSpacing;
     if (same && (best.places.empty() || look.log_chance < best.log_chance)) best = std::move(look);
   }
   return best;
@@ -203,13 +193,12 @@ Pattern most_regular(std::span<const double> heights, double distance) {
 /// plainly than those of twice it (of which it would be every second line).
 std::optional<Pattern> by_comb(std::span<const double> heights, const Combs& combs) {
   const auto comb = combs.find(std::nullopt);
-  if (!comb || !comb->is_sure() || comb->value < thresholds::kFewestCombSamples) return std::nullopt;
+  if (!comb || !comb->is_sure() || comb->value < thresholds::kFewestRidgeSamples) return std::nullopt;
   Pattern best = most_regular(heights, comb->value);
   const bool shows = !best.places.empty() && best.log_chance < thresholds::kHintOfRidges &&
                      best.log_chance < most_regular(heights, 2.0 * comb->value).log_chance;
-  if (!shows || !comb->is_followed() || comb->ridges < thresholds::kFewestCombRidges) {
-    best.doubt = shows ? "the ridges that the spectrum shows are too few or too irregular to locate"
-                       : "the spectrum has a significant line, but no ridges have its spacing";
+  if (!shows) {
+    best.doubt = "the spectrum has a significant line, but no ridges have its spacing";
     best.comb_spacing = comb->value;
     return best;
   }

@@ -272,28 +272,6 @@ TEST_CASE("whether a fit that determines nothing is loose or worse does not chan
   CHECK(classified(0.05, ParameterStatus::Unidentified).model_fits);
 }
 
-TEST_CASE("irregular falls of a rough trace are chatter only where they are clear of the noise") {
-  std::mt19937_64 random(3);
-  std::normal_distribution<double> normal;
-  std::vector<double> force;
-  for (int i = 0; i < 6000; ++i) force.push_back(normal(random));
-  Conditions conditions;
-  conditions.speed_m_per_s = 0.001;
-  const Recording recording = recorded(std::move(force), 100.0, conditions);
-  Estimates estimates;
-  for (const double over_noise : {1.1, 1.9, 2.2}) {
-    Segmentation& slips = estimates.signals.segmentation;
-    slips = falls(std::vector<double>(60, 1.0), 1.0 / (over_noise * thresholds::kNoiseDrop));
-    for (std::size_t i = 0; i < slips.slips.size(); ++i) {
-      slips.slips[i].rise_s = 2.0 * slips.slips[i].fall_s;
-      if (i % 2 == 1) slips.slips[i].middle_s += 0.6;
-    }
-    CAPTURE(over_noise);
-    CHECK(classify(recording, estimates).motion ==
-          (over_noise > 2.0 ? MotionClass::Undetermined : MotionClass::SteadySliding));
-  }
-}
-
 TEST_CASE("half of the falls no larger than noise makes them is faint, however many they are") {
   const double noise = 1.0 / thresholds::kNoiseDrop;
   CHECK(is_faint(falls({0.9, 2.0}, noise)));

@@ -67,7 +67,7 @@ struct Unpacked {
 
 /// As many such cycles as a fit needs.
 CycleSet set_of(const CycleData& cycle, double reference_s, const LevelModel& level, const Scales& scales) {
-  constexpr std::size_t kCount = thresholds::kFewestFitted;
+  constexpr std::size_t kCount = thresholds::kFewestSlips;
   return CycleSet::create(std::vector(kCount, cycle), std::vector(kCount, reference_s), level, scales).value();
 }
 
@@ -325,10 +325,10 @@ TEST_CASE("a clock is even to what its written times are rounded by, not where a
 
 TEST_CASE("no set of cycles has fewer cycles than a fit needs") {
   const Scales scales = example_scales(ForceView::Spring);
-  for (std::size_t count = 0; count <= thresholds::kFewestFitted; ++count) {
+  for (std::size_t count = 0; count <= thresholds::kFewestSlips; ++count) {
     CAPTURE(count);
     const std::vector cycles(count, example_cycle());
-    const bool can_be_fitted = count == thresholds::kFewestFitted;
+    const bool can_be_fitted = count == thresholds::kFewestSlips;
     CHECK(CycleSet::create(cycles, std::vector(count, 0.0), kPolynomial, scales).has_value() == can_be_fitted);
     CHECK(BlockFit::create(cycles, std::vector(count, 0.0), scales, kPolynomial).has_value() == can_be_fitted);
   }

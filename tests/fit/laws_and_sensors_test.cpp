@@ -75,7 +75,7 @@ BlockFit exact(const Scales& scales, const Coordinates& values) {
   cycle.force.assign(cycle.time_s.size(), 0.0);
   cycle.bins_before = {{20.0, -0.9, 0.0, 0.0, 1.3, 0.0, {}}, {20.0, -0.4, 0.0, 0.0, 1.1, 0.0, {}}};
   cycle.bins_after = {{20.0, 1.4, 0.0, 0.0, 1.2, 0.0, {}}};
-  constexpr std::size_t kCount = thresholds::kFewestFitted;
+  constexpr std::size_t kCount = thresholds::kFewestSlips;
   const LevelModel level{false, 1, {}};
   const auto fit_of = [&](const std::vector<CycleData>& cycles) {
     BlockFit fit = BlockFit::create(cycles, std::vector(kCount, 0.0), scales, level).value();

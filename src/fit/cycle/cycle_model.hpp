@@ -37,7 +37,7 @@ struct CycleRows {
 /// Returns the rows of a cycle without the level's functions.
 CycleRows rows_of(const CycleData& cycle);
 
-/// The cycles of a recording as fits use them, at least thresholds::kFewestFitted, with the level's functions at all
+/// The cycles of a recording as fits use them, at least thresholds::kFewestSlips, with the level's functions at all
 /// their rows. Never changed, and so shared by all fits of the recording.
 class CycleSet {
  public:

@@ -139,7 +139,7 @@ CycleRows rows_of(const CycleData& cycle) {
 
 std::optional<CycleSet> CycleSet::create(std::vector<CycleData> cycles, std::vector<double> reference_s,
                                          LevelModel level, const Scales& scales) {
-  if (cycles.size() < thresholds::kFewestFitted) return std::nullopt;
+  if (cycles.size() < thresholds::kFewestSlips) return std::nullopt;
   return CycleSet(std::move(cycles), std::move(reference_s), std::move(level), scales);
 }
 

@@ -55,7 +55,7 @@ SameMotion compare_motions(const FreeMotion& slips, const FreeMotion& ring) {
   const Eigen::Matrix2d gain = slips.covariance * (slips.covariance + ring.covariance).inverse();
   const double chi2 = apart.dot((slips.covariance + ring.covariance).inverse() * apart);
   const double chance = std::exp(-0.5 * chi2);  // of chi-square with two degrees of freedom
-  if (!(chance > thresholds::kMotionChance)) return {std::nullopt, true};
+  if (!(chance > thresholds::kSignificant)) return {std::nullopt, true};
   FreeMotion both{slips.values + gain * apart, slips.covariance - gain * slips.covariance};
   both.covariance = 0.5 * std::max(1.0, 0.5 * chi2) * (both.covariance + both.covariance.transpose());
   both.values(1) = std::max(0.0, both.values(1));

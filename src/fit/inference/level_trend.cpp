@@ -110,7 +110,7 @@ Interval possible_shares(const Recording& recording, const std::optional<RampDri
   if (stated == LevelReading::Friction) return {1.0, 1.0};
   if (drift) {
     const auto excludes = [&](double share) {
-      return std::abs(drift->share - share) > thresholds::kTrendSigmas * drift->standard_error;
+      return std::abs(drift->share - share) > thresholds::kSureSigmas * drift->standard_error;
     };
     if (excludes(1.0) && !excludes(0.0)) return {1.0, 1.0};
     if (excludes(0.0) && !excludes(1.0)) return {0.0, 0.0};
@@ -132,7 +132,7 @@ TrendFindings find_level_trend(const Recording& recording, const DampedFit& fit)
   TrendFindings result;
   result.mass_is_stated = fit.mass_gives_frequency;
   result.is_per_cycle = blocks.level().per_cycle;
-  if (blocks.size() < thresholds::kFewestFitted) return result;
+  if (blocks.size() < thresholds::kFewestSlips) return result;
   const Levels levels = levels_of(blocks);
   const double freedom = levels.degrees_of_freedom();
   if (levels.terms < 2 || !(freedom > 0.0)) return result;
@@ -143,7 +143,7 @@ TrendFindings find_level_trend(const Recording& recording, const DampedFit& fit)
   // the slope of that off.
   const double fitted_share = result.is_per_cycle ? 1.0 : 0.0;
   result.trend.in_sticks_per_s = (1.0 - fitted_share) * rate;
-  if (!(std::abs(rate) > thresholds::kTrendSigmas * error)) return result;
+  if (!(std::abs(rate) > thresholds::kSureSigmas * error)) return result;
   const Interval whole{recording.whole_begin_s(), recording.time_s().back()};
   result.trend.level_range = range_of(levels, whole.low, whole.high, t_quantile(freedom) * error);
   const std::optional<RampDrift> in_ramps = drift_in_ramps(blocks);

@@ -104,10 +104,10 @@ std::optional<SegmentMisfit> find_misfit(const BlockFit& fit, double tolerated) 
   std::optional<SegmentMisfit> worst;
   for (std::size_t p = 0; p < kSegments; ++p) {
     const Stack& stack = stacks[p];
-    if (stack.count < thresholds::kIdentifyingCycles) continue;
+    if (stack.count < thresholds::kFewestCycles) continue;
     const double size = std::abs(stack.mean);
-    if (size < thresholds::kMisfitSigmas * stack.standard_error() ||
-        size < thresholds::kMisfitShare * std::abs(onset_force) + tolerated)
+    if (size < thresholds::kOfManySigmas * stack.standard_error() ||
+        size < thresholds::kNegligible * std::abs(onset_force) + tolerated)
       continue;
     if (worst && size <= std::abs(worst->size * onset_force)) continue;
     const double position = (static_cast<double>(p) + 0.5) / kSegments * (1.0 + 2.0 * kMargin) - kMargin;

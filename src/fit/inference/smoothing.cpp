@@ -61,7 +61,7 @@ TwoSides two_sides_of(const BlockFit& fit, const std::vector<Index>& columns, do
 }  // namespace
 
 bool Smoothing::exceeds_step(double sample_interval_s) const {
-  return variance_s2 - thresholds::kRoundedSigmas * standard_error_s2 > sample_interval_s * sample_interval_s / 12.0;
+  return variance_s2 - thresholds::kLikelySigmas * standard_error_s2 > sample_interval_s * sample_interval_s / 12.0;
 }
 
 std::optional<Smoothing> estimate_smoothing(const BlockFit& fit, const Held& held, double sample_interval_s) {

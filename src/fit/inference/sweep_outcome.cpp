@@ -68,7 +68,8 @@ bool recordings_disagree(const SweepOutcome& outcome) {
       const double least = 0.05 * covariance(i, i);  // rounding and iteration: the difference may come out as nothing
       const double variance = std::max(one->spread.covariance(i, i) - covariance(i, i), least);
       const double shift = one->values(i) - outcome.values(i);
-      if (variance > 0.0 && shift * shift > thresholds::kShiftSigmas * thresholds::kShiftSigmas * variance) return true;
+      if (variance > 0.0 && shift * shift > thresholds::kOfManySigmas * thresholds::kOfManySigmas * variance)
+        return true;
     }
   }
   return false;

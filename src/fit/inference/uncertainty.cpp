@@ -71,7 +71,7 @@ bool noise_differs(const BlockFit& fit, const std::vector<Normal>& normals) {
   }
   if (!(slip_freedom > 0.0) || !(stick_freedom > 0.0) || !(stick > 0.0)) return false;
   const double ratio = std::log(slip / slip_freedom * stick_freedom / stick);
-  return std::abs(ratio) > thresholds::kWhiteSigmas * std::sqrt(2.0 / slip_freedom + 2.0 / stick_freedom);
+  return std::abs(ratio) > thresholds::kSureSigmas * std::sqrt(2.0 / slip_freedom + 2.0 / stick_freedom);
 }
 
 /// Root mean square over the cycles of the error that noise of variance 1 gives to an onset force.
@@ -178,7 +178,7 @@ Uncertainty estimate_uncertainty(const BlockFit& fit, const SolveOptions& solved
   result.onset_force_error = error_of_onset_force(normals) * std::sqrt(variance);
 
   // White intervals hold where neighbouring residuals are uncorrelated and slips are as noisy as sticks.
-  const double white_bound = thresholds::kWhiteSigmas / std::sqrt(std::max(1.0, result.lag1_pairs));
+  const double white_bound = thresholds::kSureSigmas / std::sqrt(std::max(1.0, result.lag1_pairs));
   const bool white = std::abs(result.lag1_correlation) <= white_bound && !noise_differs(fit, normals);
   result.from_cycles = !white && !solved.continuous;
   const Selection selection = select(fit);

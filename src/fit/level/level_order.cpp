@@ -46,7 +46,7 @@ std::size_t choose_level_terms(const std::vector<double>& time_s, const std::vec
     const double rest = std::max(sum_of_squares_about(basis, values, static_cast<Eigen::Index>(terms)), 1e-30 * total);
     const double score = static_cast<double>(count) * std::log(rest) +
                          (static_cast<double>(terms) - 1.0) * std::log(static_cast<double>(count)) +
-                         thresholds::kDriftHandicap;
+                         thresholds::kTierPrice;
     if (score >= best) continue;
     best = score;
     best_terms = terms;

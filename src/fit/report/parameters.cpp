@@ -57,8 +57,8 @@ class Reporter {
 
   /// Grades an estimate. `doubt` is empty where nothing but its size speaks against the estimate.
   [[nodiscard]] ParameterStatus graded(Id id, const Estimate& estimate, const std::string& doubt) const {
-    const bool good = doubt.empty() && f_.cycles >= thresholds::kIdentifyingCycles &&
-                      relative_error(estimate) < info(id).identified_below;
+    const bool good =
+        doubt.empty() && f_.cycles >= thresholds::kFewestCycles && relative_error(estimate) < info(id).identified_below;
     return good ? ParameterStatus::Identified : ParameterStatus::Weak;
   }
 
@@ -78,7 +78,7 @@ class Reporter {
   [[nodiscard]] Id in_unit(Id force, Id coefficient) const { return f_.in_newtons ? force : coefficient; }
 
   [[nodiscard]] std::string few_cycles() const {
-    return f_.cycles < thresholds::kIdentifyingCycles ? fmt::format("only {} cycles", f_.cycles) : std::string();
+    return f_.cycles < thresholds::kFewestCycles ? fmt::format("only {} cycles", f_.cycles) : std::string();
   }
 
   /// Returns why nothing that is read from the slip is identified.

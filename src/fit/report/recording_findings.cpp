@@ -51,13 +51,13 @@ StiffnessFindings stiffness_of(const Recording& recording, const TierFits& fits)
   // Ramps that bend (creep before a slip, a tightening line) have no one slope: k depends on the stretch that is used,
   // by half of what the halves of the ramps differ.
   const std::optional<RampBend> bend = ramp_bend(blocks);
-  if (bend && std::abs(bend->log_ratio) > thresholds::kBendSigmas * bend->standard_error) {
+  if (bend && std::abs(bend->log_ratio) > thresholds::kClearSigmas * bend->standard_error) {
     result.variance += std::pow(0.5 * bend->log_ratio, 2);
     result.note = fmt::format(
         "the sticks are curved: their slope {} by {:.1f} % from start to end; the interval of k includes this",
         bend->log_ratio > 0.0 ? "decreases" : "increases", 100.0 * std::abs(bend->log_ratio));
     result.warnings.push_back({"model_misfit", result.note});
-    if (std::abs(bend->log_ratio) > thresholds::kAuditShare) result.doubt = result.note;
+    if (std::abs(bend->log_ratio) > thresholds::kNegligible) result.doubt = result.note;
   }
   if (const std::optional<StickRipple> ripple = ripple_of(fits.damped)) {
     result.variance += std::pow(ripple->log_stiffness, 2);
@@ -115,7 +115,7 @@ AveragingFindings averaging_of(const Recording& recording, const DampedFit& fit,
         {"samples_averaged",
          result.doubt + " or by friction that changes during the slip; intervals include this. State the averaging "
                         "time with --sensor-average if it is known"});
-  } else if (change > thresholds::kAverageShare) {
+  } else if (change > thresholds::kNegligible) {
     result.small_doubt = is_seen ? unexcluded_average(std::sqrt(12.0 * variance_s2), change) : averaging_doubt(change);
   }
   return result;
@@ -179,7 +179,7 @@ std::string doubt_of_fall(const Conditions& conditions, const DampedFit& fit, co
     return fit.fall_doubt + ": " +
            (is_rejected ? stated_mass() : std::string("state the average with --sensor-average, or the mass"));
   }
-  const bool coloured = residual.whiteness_p && *residual.whiteness_p < thresholds::kColouredChance;
+  const bool coloured = residual.whiteness_p && *residual.whiteness_p < thresholds::kProven;
   const bool large = residual.reduced_chi2 && *residual.reduced_chi2 > thresholds::kLargeChi2;
   if (!large || !coloured || fit.mass_gives_frequency || fit.motion) return {};
   if (hides_damping(fit.blocks)) {
@@ -191,7 +191,7 @@ std::string doubt_of_fall(const Conditions& conditions, const DampedFit& fit, co
       "the force recovers after a slip, and residuals are correlated and larger than the noise: sensor averaging "
       "(--sensor-average) or friction may determine the slip time instead of the mass";
   // An average obscures slips that are quicker, and so of a smaller mass, than they look.
-  const bool is_too_large = sigmas_of_stated_mass(conditions, fit) > thresholds::kSureTerm;
+  const bool is_too_large = sigmas_of_stated_mass(conditions, fit) > thresholds::kClearSigmas;
   return is_too_large ? open_fall + "; " + stated_mass() : open_fall;
 }
 
@@ -200,7 +200,7 @@ void state_doubts(const Conditions& conditions, const TierFits& fits, const Reso
                   const Residual& residual, Findings& findings) {
   // White residuals that exceed the noise are noise of the slips, which the scatter of the cycles has in the
   // covariance.
-  const bool coloured = !residual.whiteness_p || *residual.whiteness_p < thresholds::kColouredChance;
+  const bool coloured = !residual.whiteness_p || *residual.whiteness_p < thresholds::kProven;
   const bool large = residual.reduced_chi2 && *residual.reduced_chi2 > thresholds::kLargeChi2 &&
                      (coloured || !fits.damped.uncertainty.from_cycles);
   if (large) {

@@ -28,7 +28,7 @@ bool may_be_averaged(const FitInput& input, const DampedFit& plain) {
   if (!(median_slip_s(plain.blocks) > step_s) || hides_shape(input.quality.noise_rms, plain)) return false;
   const std::optional<Smoothing>& seen = plain.rounding;
   const double zeta = plain.blocks.parameters.values(kDamping);
-  const bool is_damped = zeta > thresholds::kSureTerm * damping_error(plain);
+  const bool is_damped = zeta > thresholds::kClearSigmas * damping_error(plain);
   return plain.misfit || plain.refused_damping || !is_damped || (seen && seen->exceeds_step(step_s));
 }
 
@@ -39,7 +39,7 @@ bool is_shaped(const std::optional<SegmentMisfit>& misfit) {
 /// Returns whether the slips have the shape of the model's once the averaging is taken out, and last longer than a step
 /// of the clock. A few cycles decide it.
 bool follows_slips(const DampedFit& fit, double sample_interval_s) {
-  const double negative = -thresholds::kNegativeSigmas * damping_error(fit);
+  const double negative = -thresholds::kLikelySigmas * damping_error(fit);
   return is_shaped(fit.misfit) && !fit.refused_damping && fit.blocks.parameters.values(kDamping) > negative &&
          resting_share(fit.blocks) >= thresholds::kRestickShare && median_slip_s(fit.blocks) > sample_interval_s;
 }
@@ -63,7 +63,7 @@ bool rules_out_lag(const FitInput& input, const DampedFit& plain, const BlockFit
 double gain_by_mass(const FitInput& input, const DampedFit& fit, const DampedFit& plain) {
   const Conditions& conditions = input.recording.conditions();
   const double sigmas = sigmas_of_stated_mass(conditions, fit);
-  const bool agrees = std::abs(sigmas) < thresholds::kSureTerm;
+  const bool agrees = std::abs(sigmas) < thresholds::kClearSigmas;
   return agrees ? std::pow(sigmas_of_stated_mass(conditions, plain), 2) - sigmas * sigmas : 0.0;
 }
 
@@ -94,7 +94,7 @@ Found best_fit(const FitInput& input, const TermFitter& fitter, const DampedFit&
       std::swap(found.gain_on_samples, gain_on_samples);
     }
     const double apart_s = std::abs(next->average->seconds - found.best->average->seconds);
-    const bool is_another = apart_s > thresholds::kSureTerm * found.best->average->standard_error_s;
+    const bool is_another = apart_s > thresholds::kClearSigmas * found.best->average->standard_error_s;
     if (is_another && std::abs(gain) < thresholds::kTierPrice) found.other = std::move(next);
   }
   return found;
@@ -146,7 +146,7 @@ bool hides_damping(const BlockFit& fit) {
 }
 
 bool tells_average(const FittedAverage& average) {
-  return average.seconds > 2.0 * thresholds::kSureTerm * average.standard_error_s;
+  return average.seconds > 2.0 * thresholds::kClearSigmas * average.standard_error_s;
 }
 
 std::optional<DampedFit> fit_as_sensed(const FitInput& input, DampedFit plain) {

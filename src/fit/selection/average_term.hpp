@@ -11,8 +11,8 @@ namespace slipfit::fit {
 /// longer ones without damping.
 bool hides_damping(const BlockFit& fit);
 
-/// Its variance, which is what rounds the slips, is more than kSureTerm of its errors: T_b itself, a root, is twice as
-/// many of its own.
+/// Its variance, which is what rounds the slips, is more than kClearSigmas of its errors: T_b itself, a root, is twice
+/// as many of its own.
 bool tells_average(const FittedAverage& average);
 
 /// `plain` finished, with the average that the slips show where the recording states none. Where one is not ruled out,

@@ -70,7 +70,7 @@ class Fitter {
     if (!fit) return std::nullopt;
     if (excluded_.size() > excluded) fit = or_wandering(*std::move(fit), kFinal);  // outliers may have led there
     if (!fit->level().lines_Hz.empty()) fit = beside_hum(*std::move(fit), cut());
-    if (quality_.clock_jitter > thresholds::kWeighedClock) fit = with_clock_weights(std::move(*fit));
+    if (quality_.clock_jitter > thresholds::kUnevenClock) fit = with_clock_weights(std::move(*fit));
     if (!refuse_negative_damping(*fit, kFinal)) return std::nullopt;
     return with_uncertainty(
         {std::move(*fit), false, held_, refused_damping_, half_width_s(start_stiffness_, scales_), excluded_},
@@ -90,7 +90,7 @@ class Fitter {
     start_stiffness_ = held_values_.stiffness_N_per_m.value_or(stiffness_of(recording_, segmentation_));
     if (!(start_stiffness_ > 0.0)) return std::nullopt;
     cycles_ = cut_cycles(recording_, segmentation_, half_width_s(start_stiffness_, scales_), excluded_);
-    if (cycles_.size() < thresholds::kFewestFitted) return std::nullopt;
+    if (cycles_.size() < thresholds::kFewestSlips) return std::nullopt;
     scales_.time_begin_s = cycles_.front().window_begin_s;
     scales_.time_end_s = cycles_.back().window_end_s;
     const LevelModel level = first_level(recording_, segmentation_, cycles_, scales_);
@@ -190,7 +190,7 @@ class Fitter {
     if (held_[kDamping] || !(zeta < 0.0) || reduced_chi2(fit) < thresholds::kSuspectChi2) return true;
     const Uncertainty uncertainty = estimate_uncertainty(fit, {held_, false});
     const double se = std::sqrt(std::max(0.0, uncertainty.covariance(kDamping, kDamping)));
-    if (!(zeta + thresholds::kNegativeSigmas * se < 0.0)) return true;
+    if (!(zeta + thresholds::kLikelySigmas * se < 0.0)) return true;
     refused_damping_ = zeta;
     held_[kDamping] = true;
     // Start again from the features: the other parameters have followed the wrong zeta.
@@ -268,12 +268,12 @@ class Fitter {
 }  // namespace
 
 std::optional<DampedFit> draft_damped(const FitInput& input, const GiveUp& give_up) {
-  if (input.segmentation.slips.size() < thresholds::kFewestFitted) return std::nullopt;
+  if (input.segmentation.slips.size() < thresholds::kFewestSlips) return std::nullopt;
   return Fitter(input, give_up).fit();
 }
 
 std::optional<BlockFit> rough_fit(const FitInput& input) {
-  if (input.segmentation.slips.size() < thresholds::kFewestFitted) return std::nullopt;
+  if (input.segmentation.slips.size() < thresholds::kFewestSlips) return std::nullopt;
   return Fitter(input, {}).rough();
 }
 

@@ -44,8 +44,7 @@ DampedFit with_joined_ramps(DampedFit loose) {
   const double freedom = std::max(1.0, loose.uncertainty.degrees_of_freedom);
   const double ratio = (joined.uncertainty.chi2 - loose.uncertainty.chi2) / ramps / (loose.uncertainty.chi2 / freedom);
   const boost::math::fisher_f_distribution<double> chance(ramps, freedom);
-  const bool agrees =
-      ratio <= 0.0 || boost::math::cdf(boost::math::complement(chance, ratio)) > thresholds::kShareChance;
+  const bool agrees = ratio <= 0.0 || boost::math::cdf(boost::math::complement(chance, ratio)) > thresholds::kProven;
   return agrees ? joined : loose;
 }
 

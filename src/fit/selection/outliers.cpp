@@ -105,11 +105,11 @@ Residuals without(Residuals residuals, const std::vector<std::size_t>& excluded)
 std::vector<std::size_t> find_outliers(const Residuals& residuals, double noise) {
   std::vector<std::size_t> outliers;
   for (std::size_t i = 0; i < residuals.value.size(); ++i) {
-    if (std::abs(residuals.value[i]) > thresholds::kOutlierSigmas * noise) outliers.push_back(i);
+    if (std::abs(residuals.value[i]) > thresholds::kOfManySigmas * noise) outliers.push_back(i);
   }
   if (outliers.empty()) return outliers;
   const auto bound_in = [&](CyclePart part) {
-    return thresholds::kOutlierSigmas * std::max(signal::kMedianToSigma * median_size(residuals, part), noise);
+    return thresholds::kOfManySigmas * std::max(signal::kMedianToSigma * median_size(residuals, part), noise);
   };
   const double stick_bound = bound_in(CyclePart::Stick);
   const double slip_bound = bound_in(CyclePart::Slip);

@@ -23,7 +23,7 @@ std::optional<FittedAverage> mean_of(const std::vector<FittedAverage>& averages)
   measured.reserve(averages.size());
   for (const FittedAverage& one : averages) measured.push_back({one.seconds, one.standard_error_s});
   const WeightedMean mean = weighted_mean(measured);
-  if (mean.chance < thresholds::kShareChance) return std::nullopt;
+  if (mean.chance < thresholds::kProven) return std::nullopt;
   // Most of each error is the unknown shape of the kernel, which all share: the mean is known no better than one.
   double error_s = averages.front().standard_error_s;
   for (const FittedAverage& one : averages) error_s = std::min(error_s, one.standard_error_s);

@@ -43,7 +43,7 @@ bool stiffness_differs(const SweepData& data) {
     measured.push_back({fit.blocks.parameters.values(kLogStiffness), error_of(fit, kLogStiffness)});
     if (!(measured.back().standard_error > 0.0)) return false;
   }
-  return weighted_mean(measured).chance < thresholds::kLawChance;
+  return weighted_mean(measured).chance < thresholds::kSignificant;
 }
 
 bool may_relax(const SweepData& data, const HeldParameters& held) {

@@ -20,7 +20,7 @@ constexpr double kFewestFalls = 3.0;  // in a period: two in a wave
 /// early half of a stick gains more over its late half than rounding explains, which repeats its errors from stick to
 /// stick.
 bool bends(const std::optional<RampBend>& bend, const DampedFit& plain, const Quality& quality) {
-  if (!bend || !(bend->log_ratio > thresholds::kBendSigmas * bend->standard_error)) return false;
+  if (!bend || !(bend->log_ratio > thresholds::kClearSigmas * bend->standard_error)) return false;
   const Scales& scales = plain.blocks.scales();
   if (median_period_s(plain.blocks) < kFewestFalls * scales.half_period_s) return false;
   return bend->log_ratio * scales.force > tolerated_misfit(quality);
@@ -30,7 +30,7 @@ bool bends(const std::optional<RampBend>& bend, const DampedFit& plain, const Qu
 bool promises(const BlockFit& few, const RampBend& before) {
   const std::optional<RampBend> bend = ramp_bend(few);
   if (!bend) return false;
-  const double surely = std::abs(bend->log_ratio) - thresholds::kBendSigmas * bend->standard_error;
+  const double surely = std::abs(bend->log_ratio) - thresholds::kClearSigmas * bend->standard_error;
   return surely < thresholds::kHalvedStack * before.log_ratio;
 }
 
@@ -45,7 +45,7 @@ bool is_justified(const DampedFit& fit, const DampedFit& plain, const RampBend& 
   const double rise = fit.blocks.parameters.values(kReloadForce);
   const std::optional<RampBend> after = ramp_bend(fit.blocks);
   const bool is_straight = after && std::abs(after->log_ratio) < thresholds::kHalvedStack * before.log_ratio;
-  return is_straight && !is_at_bound(fit.blocks) && rise > thresholds::kSureTerm * error_of(fit, kReloadForce) &&
+  return is_straight && !is_at_bound(fit.blocks) && rise > thresholds::kClearSigmas * error_of(fit, kReloadForce) &&
          error_of(fit, kReloadLength) < thresholds::kTellingError && gain_of(fit, plain) > thresholds::kTierPrice;
 }
 

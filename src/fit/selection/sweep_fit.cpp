@@ -70,7 +70,7 @@ class SweepFitter {
       fits.coulomb = shares_less ? std::move(own) : std::move(coulomb);
       fits.growing = with_growing_stiffness(*fits.coulomb);
     }
-    fits.depends_on_speed = fits.p_value < thresholds::kLawChance;
+    fits.depends_on_speed = fits.p_value < thresholds::kSignificant;
     return fits;
   }
 
@@ -156,17 +156,17 @@ class SweepFitter {
         std::optional<SweepSolution> better = released(*shared);
         if (better && better->chi2 < free->chi2) free = std::move(better);
       }
-      if (chance_of_sharing(*shared, *free) > thresholds::kShareChance) return shared;
+      if (chance_of_sharing(*shared, *free) > thresholds::kProven) return shared;
     }
     return free;
   }
 
   /// Returns the fit with k that depends on the speed; empty where one k of all recordings explains them.
   [[nodiscard]] std::optional<SweepSolution> with_growing_stiffness(const SweepSolution& same) const {
-    const bool may_grow = !fixed_.stiffness_N_per_m && same.can_show_trend(thresholds::kStiffnessRecordings);
+    const bool may_grow = !fixed_.stiffness_N_per_m && same.can_show_trend(thresholds::kFewestRecordings);
     if (!may_grow) return std::nullopt;
     const std::optional<SweepSolution> growing = with_exponent(same, same.held);
-    if (!growing || !(chance(same.chi2 - growing->chi2, 1.0, *growing) < thresholds::kLawChance)) return std::nullopt;
+    if (!growing || !(chance(same.chi2 - growing->chi2, 1.0, *growing) < thresholds::kSignificant)) return std::nullopt;
     return with_shares({FrictionLaw::Coulomb, true}, {true, true});
   }
 

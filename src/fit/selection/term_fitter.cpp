@@ -111,7 +111,7 @@ bool is_negative(const DampedFit& fit) {
   const double zeta = fit.blocks.parameters.values(kDamping);
   const double error = damping_error(fit);
   const bool is_open = fit.blocks.scales().law == FrictionLaw::Weakening && !(error < thresholds::kTellingDamping);
-  return !fit.held[kDamping] && zeta < (is_open ? 0.0 : -thresholds::kNegativeSigmas * error);
+  return !fit.held[kDamping] && zeta < (is_open ? 0.0 : -thresholds::kLikelySigmas * error);
 }
 
 }  // namespace

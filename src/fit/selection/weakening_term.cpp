@@ -52,11 +52,11 @@ Candidate judged(Candidate candidate, const DampedFit& fit, const DampedFit& cou
   const bool is_rounded = coulomb.average || coulomb.blocks.scales().law == FrictionLaw::Weakening;
   const double most =
       is_rounded ? std::max(before, thresholds::kChanceStack * left.by_chance) : thresholds::kHalvedStack * before;
-  candidate.chosen = gain > thresholds::kTierPrice && sigmas > thresholds::kSureTerm && after <= most;
+  candidate.chosen = gain > thresholds::kTierPrice && sigmas > thresholds::kClearSigmas && after <= most;
   candidate.reason += candidate.chosen
                           ? ": the slip distance is justified"
                           : fmt::format(": an AICc {:g} lower, {:g} standard errors and half the residual are required",
-                                        thresholds::kTierPrice, thresholds::kSureTerm);
+                                        thresholds::kTierPrice, thresholds::kClearSigmas);
   return candidate;
 }
 
@@ -125,10 +125,10 @@ std::optional<Both> best_of_both(const FitInput& input, const TermFitter& fitter
   const double ahead = gain_on_same_samples(fits[1], fits[0]) + 2.0;  // as many parameters
   const FittedAverage average = *fits[0].average;
   const bool is_same =
-      std::abs(fits[1].average->seconds - average.seconds) < thresholds::kSureTerm * average.standard_error_s;
+      std::abs(fits[1].average->seconds - average.seconds) < thresholds::kClearSigmas * average.standard_error_s;
   if (ahead > 0.0) std::swap(fits[0], fits[1]);
   const double gain = gain_on_same_samples(fits[0], rival);
-  Both both{std::move(fits[0]), gain, is_same || std::abs(ahead) > thresholds::kSurelyAhead};
+  Both both{std::move(fits[0]), gain, is_same || std::abs(ahead) > thresholds::kTierPrice};
   if (!both.is_sure) both.other = std::move(fits[1]);
   return both;
 }
