@@ -86,6 +86,23 @@ def reversals(rng):
     return _strokes(rng, int(rng.integers(3, 7)))
 
 
+def short_strokes(rng):
+    """A reciprocating test on a soft sample: two to eight slips a stroke, and a reversal that takes as long as one to six of them."""
+    rig = draw_rig(rng, slips=(2, 9), ratio=(4, 15), noise=(0.005, 0.03))
+    rig.kinetic = rig.drop * rng.uniform(0.8, 4)
+    one = rig.count * rig.period_s + 2 * rig.kinetic / (rig.model.stiffness * rig.speed)
+    time_s, speed, static, kinetic = rig.course(int(rng.integers(6, 20)) * one)
+    speed = np.where((time_s / one).astype(int) % 2 == 0, speed, -speed)
+    factors = np.maximum(0.4, 1 + rng.uniform(0.02, 0.15) * rng.standard_normal(400))
+    motion = simulate(rig.model, rig.step, speed, static, kinetic, factors, rig.start_force())
+    result = scene(rig, motion)
+    same = (motion.slips["onset_s"] / one).astype(int)
+    gaps = np.diff(motion.slips["onset_s"])[np.diff(same) == 0]
+    result.truth |= {"kind": "reciprocating", "frequency_Hz": float(1 / gaps.mean()), "spacing_m": float(rig.speed * gaps.mean()),
+                     "any_stretch": True}
+    return result
+
+
 def speed_step(rng):
     """Twice as fast in the second half: changes on the way, and is to be said so."""
     rig = draw_rig(rng, slips=(30, 50), ratio=(8, 30))
@@ -245,5 +262,5 @@ def all_mild(rng):
     return scene(rig, motion, force, known=NONE)
 
 
-FAMILIES = [stage_run, soft_run_up, pause, there_and_back, reversals, speed_step, late_onset, dies_out, ripple, creep, reload, stiffening, stribeck,
+FAMILIES = [stage_run, soft_run_up, pause, there_and_back, reversals, short_strokes, speed_step, late_onset, dies_out, ripple, creep, reload, stiffening, stribeck,
               quadratic, ageing, weakening, lugre, precursors, aftershocks, texture, clocked, clutch_like, all_mild]
