@@ -17,6 +17,7 @@ const kGermanWarnings = {
   implausible_units: "Die Werte sind unwahrscheinlich groß oder klein: vermutlich ist eine Einheit um 1000 falsch.",
   part_of_recording: "Weniger als 80 % der Aufzeichnung gleitet; nur dieser Abschnitt wurde ausgewertet.",
   several_steps: "Die Datei enthält mehrere Aufzeichnungen nacheinander; eine davon wurde genommen.",
+  strokes_pooled: "Ein Versuch mit Hin- und Rückweg: alle Hübe wurden zusammen ausgewertet.",
   container_cut: "Der letzte Block der TDMS-Datei ist unvollständig und wurde ausgelassen.",
   zero_force_ignored: "Ein Nullpunkt in Newton lässt sich von einer Reibungszahl nicht abziehen.",
   gaps: "Die Aufzeichnung hat zeitliche Lücken.",

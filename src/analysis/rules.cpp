@@ -172,11 +172,12 @@ constexpr auto kRules = std::to_array<Rule>({
     {"time_runs_backwards", RuleKind::Fact},
     {"repeated_time_stamps", RuleKind::Fact},
     {"several_steps", RuleKind::Fact},
+    {"strokes_pooled", RuleKind::Fact},
     {"container_cut", RuleKind::Fact},
     {"part_of_recording", RuleKind::Fact, part_of_recording},
     {"gaps", RuleKind::Fact,
      [](const Facts& f) {
-       return when(quality_in(f).gaps > 0,
+       return when(quality_in(f).gaps > 0 && f.detected.recording().provenance().strokes == 0,
                    fmt::format("{} {} in the clock, the longest {:.3g} s", quality_in(f).gaps,
                                quality_in(f).gaps == 1 ? "gap" : "gaps", quality_in(f).longest_gap_s));
      }},

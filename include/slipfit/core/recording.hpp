@@ -95,6 +95,7 @@ struct Provenance {
   /// The speed of a displacement column with its standard error; empty without such a column, or if the speed is not
   /// constant.
   std::optional<Estimate> moved_m_per_s{};
+  std::size_t strokes = 0;    ///< of a reciprocating test that were read as one recording; 0: no such test
   bool window_given = false;  ///< the user chose what part to read: nothing else is left out
   /// The options that the user stated for reading it: columns of a manifest and their cells.
   std::vector<std::pair<std::string, std::string>> options{};
