@@ -18,6 +18,8 @@ const kGermanWarnings = {
   part_of_recording: "Weniger als 80 % der Aufzeichnung gleitet; nur dieser Abschnitt wurde ausgewertet.",
   several_steps: "Die Datei enthält mehrere Aufzeichnungen nacheinander; eine davon wurde genommen.",
   strokes_pooled: "Ein Versuch mit Hin- und Rückweg: alle Hübe wurden zusammen ausgewertet.",
+  drive_measured: "Die Kraft wurde über dem gemessenen Weg des Antriebs ausgewertet, nicht über der angegebenen Geschwindigkeit.",
+  drive_moves_in_slips: "Der Antrieb holt während des Gleitens auf: Eigenfrequenz, Masse, Dämpfung und F_s - F_k sind Näherungen.",
   container_cut: "Der letzte Block der TDMS-Datei ist unvollständig und wurde ausgelassen.",
   zero_force_ignored: "Ein Nullpunkt in Newton lässt sich von einer Reibungszahl nicht abziehen.",
   gaps: "Die Aufzeichnung hat zeitliche Lücken.",

@@ -97,7 +97,8 @@ void settle_sign(Interpreted& part) {
 
 Recording create(Interpreted part, const std::string& file) {
   auto recording = Recording::create(std::move(part.rows.time_s), std::move(part.rows.force), part.conditions,
-                                     std::move(part.provenance), std::move(part.rows.normal_force_N));
+                                     std::move(part.provenance), std::move(part.rows.normal_force_N),
+                                     std::move(part.rows.displacement_m));
   if (!recording) throw ThrownError({recording.error().code, file + ": " + recording.error().message});
   return std::move(recording).value();
 }
