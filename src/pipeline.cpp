@@ -105,6 +105,10 @@ Analysis conclude(const Detected& detected, Estimates estimates, Classification 
   analysis.frequency = in_range(
       quote_frequency(recording, estimates.signals, classification, classification.model_fits ? fit : nullptr));
   analysis.cycles = in_range(summarise_cycles(recording, slips, fit));
+  if (estimates.drive) {
+    analysis.drive = {estimates.drive->recording.conditions().speed_m_per_s, estimates.drive->share_in_slips};
+    analysis.cycles.stick_stiffness = estimates.drive->stiffness_N_per_m;
+  }
   if (analysis.cycles.period_cv) {
     analysis.cycles.regularity = regularity_of(analysis.cycles, analysis.frequency.quoted, recording.conditions());
   }
@@ -236,7 +240,9 @@ SweepAnalysis analyze_sweep(std::span<const SweepEntry> entries, const FitOption
   sweep.roles = roles_of(entries, sweep.recordings);
   for (std::size_t i = 0; i < members.size(); ++i) {
     const Signals& signals = members[i].estimates.signals;
-    recordings.push_back({members[i].detected.recording(), signals.quality, signals.segmentation, sweep.roles[i],
+    const std::optional<SteadyDrive>& drive = members[i].estimates.drive;
+    const Recording& recording = drive ? drive->recording : members[i].detected.recording();
+    recordings.push_back({recording, signals.quality, signals.segmentation, sweep.roles[i],
                           ring_down_of(sweep.recordings[i].transients)});
   }
   sweep.fit = in_range(fit_sweep(recordings, options));

@@ -76,5 +76,43 @@ def ringdown(rng):
     return control(rig, "ringdown", rig.kinetic + np.concatenate([ramp, ring]), frequency=w / 2 / np.pi)
 
 
-FAMILIES = [steady_white, steady_red, steady_walk, steady_pickup, steady_ripple, steady_run, sine, sine_harmonics, square, triangle,
+def texture_trace(rng):
+    """Steady sliding over ridges of random heights and spacings, each steeper on one side."""
+    rig = draw_rig(rng)
+    count, steep, spread = int(rng.integers(20, 60)), rng.uniform(1.5, 8), rng.uniform(0.05, 0.6)
+    heights, widths = np.exp(spread * rng.standard_normal((2, count)))
+    edges = np.concatenate([[0.0], np.cumsum(widths)]) * int(rng.uniform(40, 200))
+    force = np.zeros(int(edges[-1]))
+    for height, begin, end in zip(heights, edges[:-1], edges[1:]):
+        i = np.arange(int(begin), min(int(np.ceil(end)), len(force)))
+        x = (i - begin) / (end - begin)
+        rise = steep / (1 + steep)
+        phase = np.where(x < rise, x / rise, (1 - x) / (1 - rise))
+        force[i] = height * 0.5 * (1 - np.cos(np.pi * np.clip(phase, 0, 1)))
+    return control(rig, "wave", rig.kinetic + rig.drop * force)
+
+
+def texture_bumps(rng):
+    """Steady sliding over a random surface with a band of wavelengths."""
+    rig = draw_rig(rng)
+    n, wave = int(rng.integers(4000, 12000)), rng.uniform(30, 200)
+    frequency = np.fft.rfftfreq(n)
+    shape = np.exp(-0.5 * (np.log(np.maximum(frequency, 1e-9) * wave) / rng.uniform(0.1, 0.5)) ** 2)
+    force = np.fft.irfft(shape * np.fft.rfft(rng.standard_normal(n)), n)
+    force = np.expm1(rng.uniform(0, 1.2) * force / force.std())  # ridges stand out more than grooves
+    return control(rig, "wave", rig.kinetic + rig.drop * force / force.std())
+
+
+def chirp(rng):
+    """An oscillation whose frequency changes by a factor of 1.5 to 4."""
+    rig = draw_rig(rng)
+    n, low, ratio = int(rng.integers(4000, 12000)), 10 ** rng.uniform(-2.3, -1.5), rng.uniform(1.5, 4)
+    x = np.arange(n) / n
+    phase = 2 * np.pi * low * n * (ratio**x - 1) / np.log(ratio)
+    result = control(rig, "wave", rig.kinetic + rig.drop * np.sin(phase))
+    result.truth["changes"] = True
+    return result
+
+
+FAMILIES = [texture_trace, texture_bumps, chirp, steady_white, steady_red, steady_walk, steady_pickup, steady_ripple, steady_run, sine, sine_harmonics, square, triangle,
             ringdown]

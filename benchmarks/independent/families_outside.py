@@ -86,6 +86,23 @@ def reversals(rng):
     return _strokes(rng, int(rng.integers(3, 7)))
 
 
+def short_strokes(rng):
+    """A reciprocating test on a soft sample: two to eight slips a stroke, and a reversal that takes as long as one to six of them."""
+    rig = draw_rig(rng, slips=(2, 9), ratio=(4, 15), noise=(0.005, 0.03))
+    rig.kinetic = rig.drop * rng.uniform(0.8, 4)
+    one = rig.count * rig.period_s + 2 * rig.kinetic / (rig.model.stiffness * rig.speed)
+    time_s, speed, static, kinetic = rig.course(int(rng.integers(6, 20)) * one)
+    speed = np.where((time_s / one).astype(int) % 2 == 0, speed, -speed)
+    factors = np.maximum(0.4, 1 + rng.uniform(0.02, 0.15) * rng.standard_normal(400))
+    motion = simulate(rig.model, rig.step, speed, static, kinetic, factors, rig.start_force())
+    result = scene(rig, motion)
+    same = (motion.slips["onset_s"] / one).astype(int)
+    gaps = np.diff(motion.slips["onset_s"])[np.diff(same) == 0]
+    result.truth |= {"kind": "reciprocating", "frequency_Hz": float(1 / gaps.mean()), "spacing_m": float(rig.speed * gaps.mean()),
+                     "any_stretch": True}
+    return result
+
+
 def speed_step(rng):
     """Twice as fast in the second half: changes on the way, and is to be said so."""
     rig = draw_rig(rng, slips=(30, 50), ratio=(8, 30))
@@ -125,6 +142,36 @@ def ripple(rng):
     frequency = rng.uniform(3, 9) / rig.period_s
     speed = speed * (1 + rng.uniform(0.1, 0.5) * np.cos(2 * np.pi * frequency * time_s))
     return scene(rig, simulate(rig.model, rig.step, speed, static, kinetic, start_force=rig.start_force()))
+
+
+def _measured_drive(rig, motion, rng):
+    """With a column of the drive's position, read in steps of an encoder."""
+    result = scene(rig, motion)
+    step = rig.drop / rig.model.stiffness * 10 ** rng.uniform(-3.5, -2)
+    result.displacement_m = step * np.round(motion.drive_m / step)
+    return result
+
+
+def servo_dips(rng):
+    """A servo gives way under the force and catches up after each slip; its position is measured."""
+    rig = draw_rig(rng)
+    rig.model.servo_compliance = rng.uniform(0.1, 1.0) / rig.model.stiffness
+    rig.model.servo_time = rig.period_s * 10 ** rng.uniform(-1.5, 0.0)
+    return _measured_drive(rig, rig.run(), rng)
+
+
+def measured_ripple(rng):
+    """A ripple of the drive whose position is measured."""
+    rig = draw_rig(rng)
+    time_s, speed, static, kinetic = rig.course((rig.count + 1) * rig.period_s)
+    speed = speed * (1 + rng.uniform(0.1, 0.5) * np.cos(2 * np.pi * rng.uniform(0.3, 5) / rig.period_s * time_s))
+    return _measured_drive(rig, simulate(rig.model, rig.step, speed, static, kinetic, start_force=rig.start_force()), rng)
+
+
+def measured_steady(rng):
+    """A steady drive whose position is measured."""
+    rig = draw_rig(rng)
+    return _measured_drive(rig, rig.run(), rng)
 
 
 def _friction(rng, known, **terms):
@@ -214,6 +261,36 @@ def texture(rng):
     return scene(rig, simulate(rig.model, rig.step, speed, static + wave, kinetic + wave, start_force=rig.start_force()))
 
 
+def two_saws(rng):
+    """Two bodies that slip on their own, on one sensor."""
+    rig = draw_rig(rng, slips=(20, 40), ratio=(6, 25))
+    factors = np.exp(rng.uniform(0, 0.15) * rng.standard_normal(200))
+    one = rig.run(factors=factors)
+    rig.drop *= rng.uniform(0.3, 0.8)
+    other = rig.run((rig.count + 1) * rig.period_s, factors=factors[::-1])
+    motion = Motion(one.time_s, one.force + other.force[: len(one.force)], one.slips)
+    result = scene(rig, motion, known=NONE)
+    result.truth |= {"frequency_Hz": None, "spacing_m": None, "any_stretch": True}
+    return result
+
+
+def clipped_saw(rng):
+    """The sensor saturates below the peaks."""
+    rig = draw_rig(rng)
+    motion = rig.run(factors=np.maximum(0.4, 1 + rng.uniform(0, 0.1) * rng.standard_normal(200)))
+    top = rig.kinetic + rng.uniform(0.2, 0.9) * rig.drop
+    return scene(rig, motion, np.minimum(motion.force + rig.white(len(motion.force)), top), known=K_ONLY, noise=False)
+
+
+def swings_with_jumps(rng):
+    """Slips of mixed sizes on a level that swings by several of them."""
+    rig = draw_rig(rng, slips=(25, 45))
+    time_s, speed, static, kinetic = rig.course((rig.count + 1) * rig.period_s)
+    wave = rig.drop * rng.uniform(0.5, 2) * np.sin(2 * np.pi * time_s / (rig.period_s * rng.uniform(6, 15)))
+    factors = np.exp(rng.uniform(0.1, 0.6) * rng.standard_normal(200))
+    return scene(rig, simulate(rig.model, rig.step, speed, static + wave, kinetic + wave, factors, rig.start_force()), known=NONE)
+
+
 def clocked(rng):
     """A periodic change of the static friction takes the slips along."""
     rig = draw_rig(rng)
@@ -245,5 +322,5 @@ def all_mild(rng):
     return scene(rig, motion, force, known=NONE)
 
 
-FAMILIES = [stage_run, soft_run_up, pause, there_and_back, reversals, speed_step, late_onset, dies_out, ripple, creep, reload, stiffening, stribeck,
-              quadratic, ageing, weakening, lugre, precursors, aftershocks, texture, clocked, clutch_like, all_mild]
+FAMILIES = [stage_run, soft_run_up, pause, there_and_back, reversals, short_strokes, speed_step, late_onset, dies_out, ripple, servo_dips, measured_ripple, measured_steady, creep, reload, stiffening, stribeck,
+              quadratic, ageing, weakening, lugre, precursors, aftershocks, texture, two_saws, clipped_saw, swings_with_jumps, clocked, clutch_like, all_mild]

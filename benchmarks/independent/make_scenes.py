@@ -23,7 +23,7 @@ def draw(description, families):
             rng = np.random.default_rng([seed, zlib.crc32(family.encode())])
             scene = named[family](rng)
             name = f"{family}-{seed}"
-            write_csv(arguments.out / f"{name}.csv", scene.time_s, scene.force)
+            write_csv(arguments.out / f"{name}.csv", scene.time_s, scene.force, scene.displacement_m)
             truths.write(json.dumps({"id": name, "family": family, "file": f"{name}.csv", **scene.truth}) + "\n")
 
 

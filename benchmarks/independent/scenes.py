@@ -63,6 +63,7 @@ class Scene:
     time_s: np.ndarray
     force: np.ndarray
     truth: dict
+    displacement_m: np.ndarray = None
 
 
 def counted(slips, share=0.25):

@@ -20,6 +20,7 @@ typedef struct {
   double velocity_law;                    /* of stribeck_force: 0 exponential, 1 logarithmic, 2 hyperbolic */
   double ageing_law;                      /* 0 ln(1 + t/t_c), 1 power of t/t_c, 2 saturating */
   double relax_share, relax_time;         /* a standard linear solid: this share of the stiffness relaxes */
+  double servo_compliance, servo_time;    /* m/N, s: the drive gives way under the force and catches up */
 } Model;
 
 /* What changes with time, one value a sample; static friction further takes a factor for each slip. */
@@ -31,7 +32,7 @@ typedef struct {
 } Course;
 
 typedef struct {
-  double force, velocity, slid, sensor, sensor_rate, since_slip, relaxing;
+  double force, velocity, slid, sensor, sensor_rate, since_slip, relaxing, behind;
 } State;
 
 static double sign_of(double x) { return x < 0 ? -1.0 : 1.0; }
@@ -59,13 +60,21 @@ static double tangent(const Model *m, const State *s, int sliding) {
   return k;
 }
 
-static State rate(const Model *m, const State *s, double drive, double kinetic, double static_friction, int sliding,
+/* The speed of a drive that falls behind by its compliance times the force, within its time constant. */
+static double actual(const Model *m, const State *s, double commanded) {
+  if (m->servo_time <= 0) return commanded;
+  return commanded - (m->servo_compliance * s->force - s->behind) / m->servo_time;
+}
+
+static State rate(const Model *m, const State *s, double commanded, double kinetic, double static_friction, int sliding,
                   double direction) {
   State d;
   memset(&d, 0, sizeof d);
   const double mass = m->stiffness / (m->omega * m->omega);
   const double damper = 2.0 * m->damping_ratio * m->stiffness / m->omega;
+  const double drive = actual(m, s, commanded);
   double velocity = 0.0;
+  d.behind = commanded - drive;
   if (sliding) {
     velocity = s->velocity;
     const double f = direction * friction(m, kinetic, static_friction - kinetic, velocity, s->slid);
@@ -130,7 +139,8 @@ static void small_falls(const Model *m, Motion *o) {
   }
 }
 
-static void begin_slip(const Model *m, Motion *o, double drive, double now, Slip *slips) {
+static void begin_slip(const Model *m, Motion *o, double commanded, double now, Slip *slips) {
+  const double drive = actual(m, &o->state, commanded);
   const double damper = 2.0 * m->damping_ratio * m->stiffness / m->omega;
   o->sliding = 1;
   o->direction = sign_of(o->state.force + damper * drive);
@@ -155,17 +165,19 @@ static void end_slip(const Model *m, Motion *o, double now, Slip *slips) {
   o->aftershock_due = m->aftershock_share > 0;
 }
 
-/* `force`: what the sensor shows at every sample. Returns the number of slips (at most `most`); the last may be open. */
-long simulate(const Model *m, const Course *course, double start_force, double *force, Slip *slips, long most) {
+/* `force`: what the sensor shows at every sample; `behind`: how far the drive is behind its command, in m. Returns the number of slips (at most `most`); the last may be open. */
+long simulate(const Model *m, const Course *course, double start_force, double *force, double *behind, Slip *slips, long most) {
   Motion o;
   memset(&o, 0, sizeof o);
   o.state.force = o.state.sensor = start_force;
   o.low_force = start_force;
   o.state.since_slip = 1e9;
+  o.state.behind = m->servo_compliance * start_force;
   const double h = course->step / course->substeps;
   const double damper = 2.0 * m->damping_ratio * m->stiffness / m->omega;
   for (long i = 0; i < course->samples; ++i) {
     force[i] = m->sensor_omega > 0 ? o.state.sensor : o.state.force;
+    behind[i] = o.state.behind;
     const double drive = course->speed[i], kinetic = course->kinetic_friction[i];
     for (int j = 0; j < course->substeps && o.slips < most - 1; ++j) {
       const double now = (i + (double)j / course->substeps) * course->step;
@@ -174,7 +186,7 @@ long simulate(const Model *m, const Course *course, double start_force, double *
                kinetic * (1.0 - course->slip_factor[o.slips % course->factors]);
         o.fs += aged(m, o.stick_s);
         small_falls(m, &o);
-        if (fabs(o.state.force + damper * drive) >= o.fs) begin_slip(m, &o, drive, now, slips);
+        if (fabs(o.state.force + damper * actual(m, &o.state, drive)) >= o.fs) begin_slip(m, &o, drive, now, slips);
       }
       const State before = o.state;
       o.state = stepped(m, before, h, drive, kinetic, o.fs, o.sliding, o.direction);
@@ -184,7 +196,8 @@ long simulate(const Model *m, const Course *course, double start_force, double *
         end_slip(m, &o, now + share * h, slips);
         o.state = stepped(m, o.state, (1.0 - share) * h, drive, kinetic, o.fs, 0, o.direction);
       } else if (!o.sliding) {
-        const double tension = fabs(before.force + damper * drive), next = fabs(o.state.force + damper * drive);
+        const double tension = fabs(before.force + damper * actual(m, &before, drive));
+        const double next = fabs(o.state.force + damper * actual(m, &o.state, drive));
         const double fs = o.fs + aged(m, o.stick_s + h) - aged(m, o.stick_s);
         if (next >= fs && next > tension) { /* within this step: both are straight over it */
           const double share = (o.fs - tension) / ((next - tension) - (fs - o.fs));

@@ -18,7 +18,7 @@ class Model(ctypes.Structure):
         "stiffness omega damping_ratio stribeck_force stribeck_speed quadratic weakening_length ageing ageing_time "
         "creep_force creep_share reload_force reload_length stiffening sensor_omega sensor_damping precursor_at "
         "precursor_share aftershock_s aftershock_share velocity_law ageing_law "
-        "relax_share relax_time").split()]
+        "relax_share relax_time servo_compliance servo_time").split()]
 
 
 class Course(ctypes.Structure):
@@ -41,10 +41,11 @@ LIBRARY = load()
 
 @dataclasses.dataclass
 class Motion:
-    """What was simulated: force at every sample before noise, and the slips."""
+    """What was simulated: force at every sample before noise, the slips, and the position of the drive."""
     time_s: np.ndarray
     force: np.ndarray
     slips: np.ndarray
+    drive_m: np.ndarray = None
 
 
 def simulate(model, step, speed, static_friction, kinetic_friction, factors=(1.0,), start_force=0.0):
@@ -56,13 +57,14 @@ def simulate(model, step, speed, static_friction, kinetic_friction, factors=(1.0
         fastest *= 10 * np.sqrt(max(1.0, np.max(columns[1] - columns[2]) / (model.stiffness * model.weakening_length)))
     substeps = max(1, int(np.ceil(step * fastest / 0.05)))
     course = Course(*[c.ctypes.data for c in columns], factors.ctypes.data, len(speed), len(factors), step, substeps)
-    force = np.zeros(len(speed))
+    force, behind = np.zeros(len(speed)), np.zeros(len(speed))
     slips = np.zeros(5000, SLIP)
     run = LIBRARY.simulate
     run.restype = ctypes.c_long
-    run.argtypes = [ctypes.c_void_p, ctypes.c_void_p, ctypes.c_double, DOUBLES, ctypes.c_void_p, ctypes.c_long]
-    count = run(ctypes.byref(model), ctypes.byref(course), start_force, force, slips.ctypes.data, len(slips))
-    return Motion(np.arange(len(speed)) * step, force, slips[:count])
+    run.argtypes = [ctypes.c_void_p, ctypes.c_void_p, ctypes.c_double, DOUBLES, DOUBLES, ctypes.c_void_p, ctypes.c_long]
+    count = run(ctypes.byref(model), ctypes.byref(course), start_force, force, behind, slips.ctypes.data, len(slips))
+    drive_m = np.concatenate([[0.0], np.cumsum(columns[0])[:-1]]) * step - behind
+    return Motion(np.arange(len(speed)) * step, force, slips[:count], drive_m)
 
 
 def simulate_lugre(k, omega, zeta, fs, fk, stribeck_speed, sigma0, sigma1, speed, step, samples):
@@ -75,7 +77,11 @@ def simulate_lugre(k, omega, zeta, fs, fk, stribeck_speed, sigma0, sigma1, speed
     return force
 
 
-def write_csv(path, time_s, force):
+def write_csv(path, time_s, force, displacement_m=None):
+    if displacement_m is not None:
+        np.savetxt(path, np.c_[time_s, force, 1e3 * displacement_m], fmt=("%.9g", "%.7g", "%.9g"), delimiter=",",
+                   header="time_s,force_N,displacement_mm", comments="")
+        return
     run = LIBRARY.write_csv
     run.argtypes = [ctypes.c_char_p, DOUBLES, DOUBLES, ctypes.c_long]
     time_s, force = (np.ascontiguousarray(c, float) for c in (time_s, force))

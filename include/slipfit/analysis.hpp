@@ -113,6 +113,12 @@ struct AskedFit {
   HeldParameters held{};
 };
 
+/// The motion of a drive whose position is measured.
+struct MeasuredDrive {
+  double stick_speed_m_per_s = 0.0;  ///< its mean speed while the body sticks
+  double share_in_slips = 0.0;       ///< its motion less a steady one in a slip, as a force over the drop
+};
+
 /// Everything that is known about one recording.
 struct Analysis {
   Quality quality;   ///< of the whole recording
@@ -130,7 +136,8 @@ struct Analysis {
   std::vector<AuditPair> audit;              ///< pairs of which both values are known; of stick-slip with a fit
   std::vector<ShortTest> tests;              ///< only where the kind of motion is stick-slip with a fit
   Timing timing;
-  std::optional<AskedFit> asked{};  ///< empty: no fit was asked for
+  std::optional<MeasuredDrive> drive{};  ///< where its measured motion was used in place of the stated speed
+  std::optional<AskedFit> asked{};       ///< empty: no fit was asked for
 };
 
 }  // namespace slipfit

@@ -89,6 +89,7 @@ Estimate stated_speed(const Subject& of) {
 }
 
 Estimate speed_of_displacement(const Subject& of) {
+  if (of.analysis.drive) return {};  // used in place of the stated speed
   return of.recording.provenance().moved_m_per_s.value_or(Estimate{});
 }
 
@@ -103,7 +104,8 @@ Estimate mass_by_secant(const Subject& of) {
       !cycles.stick_time_s || !has_long_sticks(cycles)) {
     return {};
   }
-  const double secant = *cycles.force_drop / (*cycles.stick_time_s * of.speed_m_per_s());
+  const double speed_m_per_s = of.analysis.drive ? of.analysis.drive->stick_speed_m_per_s : of.speed_m_per_s();
+  const double secant = *cycles.force_drop / (*cycles.stick_time_s * speed_m_per_s);
   const double mass = secant / (*omega.value * *omega.value);
   const double of_slope = *slope.standard_error / *slope.value;
   const double of_omega = 2.0 * *omega.standard_error / *omega.value;

@@ -168,6 +168,24 @@ bool is_pure_wave(const Recording& recording, const Signals& signals) {
   return rms && *rms < most;
 }
 
+/// The fit of the recording under a steady drive where the position of the drive is measured and it moves unsteadily.
+/// What it adds depends on the natural frequency: the fit is repeated with the new one.
+Estimates against_drive(const Recording& recording, Estimates estimates, const FitOptions& options) {
+  constexpr int kPasses = 3;
+  const Signals& signals = estimates.signals;
+  std::optional<FitResult> fit = estimates.fit;
+  for (int pass = 0; pass < kPasses; ++pass) {
+    std::optional<SteadyDrive> drive = at_steady_drive(recording, signals.segmentation, fit ? &*fit : nullptr);
+    if (!drive) return estimates;
+    std::optional<FitResult> steady = fit_recording(drive->recording, signals.quality, signals.segmentation, options);
+    if (!steady) return estimates;
+    fit = steady;
+    estimates.fit = as_measured(*std::move(steady), recording, *drive);
+    estimates.drive = std::move(drive);
+  }
+  return estimates;
+}
+
 }  // namespace
 
 Estimates estimate_frequency(const Detected& detected) {
@@ -201,6 +219,7 @@ Estimates estimate(const Detected& detected, const FitOptions& options) {
   if (!is_wave) estimates.fit = fit::fit_unless(is_hum, recording, seen.quality, seen.segmentation, options);
   take_frequency();
   if (!is_wave && may_be_hum(estimates.signals)) estimates = beneath.better_of(std::move(estimates));
+  if (!is_wave) estimates = against_drive(recording, std::move(estimates), options);
   if (estimates.fit) estimates.fit = in_range(*std::move(estimates.fit), recording.conditions());
   estimates.fit_s = stopwatch.elapsed_s();
   return estimates;

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "analysis/detect.hpp"
+#include "analysis/measured_drive.hpp"
 #include "slipfit/fit/fit.hpp"
 
 namespace slipfit {
@@ -10,9 +11,10 @@ namespace slipfit {
 /// Repetition frequency and fit of the stretch that slides, with the slips that both rest on.
 struct Estimates {
   Signals signals;
-  std::optional<FitResult> fit;  ///< empty: not asked for, or no cycles to fit
-  double frequency_s = 0.0;      ///< seconds that the spectrum took
-  double fit_s = 0.0;            ///< seconds that the fit took
+  std::optional<FitResult> fit;        ///< empty: not asked for, or no cycles to fit
+  std::optional<SteadyDrive> drive{};  ///< where the measured motion of the drive was taken off before the fit
+  double frequency_s = 0.0;            ///< seconds that the spectrum took
+  double fit_s = 0.0;                  ///< seconds that the fit took
 };
 
 /// The spectrum alone.

@@ -278,8 +278,15 @@ FrequencyReport quote_frequency(const Recording& recording, const Signals& signa
     const MeanAndSpread interval = describe(intervals.seconds);
     const bool scatters = interval.count > 7.0 && interval.sd > thresholds::kCounted * interval.mean;
     const bool usable = fit != nullptr && motion == MotionClass::StickSlip && intervals.broken == 0 && !scatters;
-    const std::optional<FrequencyReport> fitted = usable ? of_fit(recording, signals, *fit) : std::nullopt;
-    report = fitted ? *fitted : of_trace(recording, signals, classification);
+    const bool has_strokes = recording.provenance().strokes > 0;  // each of them begins with a phase of its own
+    const std::optional<FrequencyReport> fitted =
+        usable && !has_strokes ? of_fit(recording, signals, *fit) : std::nullopt;
+    if (has_strokes) {
+      report.method = FrequencyMethod::SlipCounting;
+      report.quoted = count_frequency(recording, signals.segmentation);
+    } else {
+      report = fitted ? *fitted : of_trace(recording, signals, classification);
+    }
   }
   report.spectral = signals.spectral;
   report.counted = count_frequency(recording, signals.segmentation);

@@ -79,6 +79,24 @@ Messages part_of_recording(const Facts& facts) {
                           sliding.begin_s, sliding.end_s, 100.0 * share));
 }
 
+Messages drive_measured(const Facts& facts) {
+  const std::optional<MeasuredDrive>& drive = facts.analysis.drive;
+  if (!drive) return {};
+  return {
+      fmt::format("the force was fitted against the measured position of the drive, which moves at {:.4g} m/s while "
+                  "the body sticks; stated are {:.4g} m/s",
+                  drive->stick_speed_m_per_s, facts.detected.recording().conditions().speed_m_per_s)};
+}
+
+Messages drive_moves_in_slips(const Facts& facts) {
+  const std::optional<MeasuredDrive>& drive = facts.analysis.drive;
+  if (!drive || drive->share_in_slips < thresholds::kDriveInSlip) return {};
+  return {
+      fmt::format("the drive catches up during a slip, by {:.0f} % of its force drop: natural frequency, mass, "
+                  "damping and F_s - F_k are approximate",
+                  100.0 * drive->share_in_slips)};
+}
+
 Messages repeated_values(const Facts& facts) {
   return when(facts.detected.repeats() > 1.0,
               fmt::format("each value is repeated {:.3g} times because the logger is faster than the converter; each "
@@ -105,6 +123,10 @@ bool sticks(const Facts& facts) {
 constexpr std::array kScaledBySpeed{ParameterId::Stiffness, ParameterId::StiffnessExponent, ParameterId::Mass,
                                     ParameterId::DampingCoefficient};
 
+/// The slip gives these.
+constexpr std::array kShownBySlips{ParameterId::NaturalFrequency, ParameterId::Mass, ParameterId::DampingRatio,
+                                   ParameterId::DampingCoefficient, ParameterId::FrictionDifference};
+
 /// The rules with the largest effect on the results come first, facts last.
 constexpr auto kRules = std::to_array<Rule>({
     {"implausible_units", RuleKind::Warning,
@@ -126,6 +148,7 @@ constexpr auto kRules = std::to_array<Rule>({
     {"level_trend", RuleKind::Warning},
     {"model_misfit", RuleKind::Warning},
     {"slips_not_inertial", RuleKind::Warning},
+    {"drive_moves_in_slips", RuleKind::Warning, drive_moves_in_slips, kShownBySlips},
     {"near_sensor_resonance", RuleKind::Warning, near_sensor_resonance},
     {"sensor_too_slow", RuleKind::Warning, sensor_too_slow},
     {"samples_averaged", RuleKind::Warning},
@@ -172,11 +195,13 @@ constexpr auto kRules = std::to_array<Rule>({
     {"time_runs_backwards", RuleKind::Fact},
     {"repeated_time_stamps", RuleKind::Fact},
     {"several_steps", RuleKind::Fact},
+    {"strokes_pooled", RuleKind::Fact},
     {"container_cut", RuleKind::Fact},
+    {"drive_measured", RuleKind::Fact, drive_measured},
     {"part_of_recording", RuleKind::Fact, part_of_recording},
     {"gaps", RuleKind::Fact,
      [](const Facts& f) {
-       return when(quality_in(f).gaps > 0,
+       return when(quality_in(f).gaps > 0 && f.detected.recording().provenance().strokes == 0,
                    fmt::format("{} {} in the clock, the longest {:.3g} s", quality_in(f).gaps,
                                quality_in(f).gaps == 1 ? "gap" : "gaps", quality_in(f).longest_gap_s));
      }},
@@ -228,6 +253,9 @@ Warnings collect_warnings(const Facts& facts) {
   if (analysis.fit && analysis.motion != MotionClass::SteadySliding) {
     warnings.insert(warnings.end(), analysis.fit->warnings.begin(), analysis.fit->warnings.end());
   }
+  // The speed in the sticks of a drive that gives way is not its mean speed.
+  if (analysis.drive)
+    std::erase_if(warnings, [](const Warning& w) { return w.code == "speed_differs_from_displacement"; });
   for (const Rule& rule : kRules) {
     if (rule.messages == nullptr) continue;
     for (std::string& message : rule.messages(facts)) warnings.push_back({std::string(rule.code), std::move(message)});

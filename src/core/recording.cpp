@@ -42,6 +42,7 @@ struct Recording::Samples {
   std::vector<double> time_s;
   std::vector<double> force;
   std::vector<double> normal_force_N;  ///< empty: not measured
+  std::vector<double> drive_m;         ///< empty: not measured
 };
 
 double Recording::whole_begin_s() const {
@@ -49,7 +50,8 @@ double Recording::whole_begin_s() const {
 }
 
 Result<Recording> Recording::create(std::vector<double> time_s, std::vector<double> force, Conditions conditions,
-                                    Provenance provenance, std::vector<double> normal_force_N) {
+                                    Provenance provenance, std::vector<double> normal_force_N,
+                                    std::vector<double> drive_m) {
   if (time_s.size() != force.size()) return Error{"length_mismatch", "time and force differ in length"};
   if (time_s.size() < 2) return Error{"too_few_samples", "fewer than 2 samples with a time and a force"};
   if (!all_readable(time_s) || !all_readable(force)) {
@@ -65,12 +67,13 @@ Result<Recording> Recording::create(std::vector<double> time_s, std::vector<doub
   }
   flush_to_zero(force);
   if (normal_force_N.size() != time_s.size() || !all_readable(normal_force_N)) normal_force_N.clear();
+  if (drive_m.size() != time_s.size() || !all_readable(drive_m)) drive_m.clear();
   Recording empty;
   empty.conditions_ = std::move(conditions);
   empty.provenance_ = std::move(provenance);
   const std::size_t size = time_s.size();
-  auto samples =
-      std::make_shared<const Samples>(Samples{std::move(time_s), std::move(force), std::move(normal_force_N)});
+  auto samples = std::make_shared<const Samples>(
+      Samples{std::move(time_s), std::move(force), std::move(normal_force_N), std::move(drive_m)});
   Recording recording = empty.with_samples(std::move(samples), 0, size);
   if (!(recording.sample_interval_s_ >= kSmallest))
     return Error{"time_constant", "the clock steps by less than 1e-36 s"};
@@ -84,6 +87,9 @@ Recording Recording::with_samples(std::shared_ptr<const Samples> samples, std::s
   recording.force_ = std::span(recording.samples_->force).subspan(begin, end - begin);
   if (!recording.samples_->normal_force_N.empty()) {
     recording.normal_force_N_ = std::span(recording.samples_->normal_force_N).subspan(begin, end - begin);
+  }
+  if (!recording.samples_->drive_m.empty()) {
+    recording.drive_m_ = std::span(recording.samples_->drive_m).subspan(begin, end - begin);
   }
   recording.sample_interval_s_ = median_positive_step(recording.time_s_);
   recording.clock_is_even_ = is_even(recording.time_s_);
@@ -104,8 +110,9 @@ Recording Recording::selected(std::span<const std::size_t> samples) const {
     for (const std::size_t i : samples) picked.push_back(values[i]);
     return picked;
   };
-  Samples picked{pick(time_s_), pick(force_), {}};
+  Samples picked{pick(time_s_), pick(force_), {}, {}};
   if (!normal_force_N_.empty()) picked.normal_force_N = pick(normal_force_N_);
+  if (!drive_m_.empty()) picked.drive_m = pick(drive_m_);
   return with_samples(std::make_shared<const Samples>(std::move(picked)), 0, samples.size());
 }
 

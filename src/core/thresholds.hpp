@@ -180,6 +180,16 @@ inline constexpr double kInertialSlip = 0.5;
 /// take up some noise by themselves]
 inline constexpr double kClearlyBetter = 0.95;
 
+// ## Measured drive
+
+/// Deviation of a measured drive from a steady motion at the stated speed, as a force over the median drop or as a
+/// speed over the stated one, below which the stated speed is used. [1; convention: a speed is known to 1 %]
+inline constexpr double kSteadyDrive = 0.01;
+
+/// Force by which a measured drive moves in a slip over the drop of the slip, above which what the slips show is
+/// conditional. [1; calibrated: below it w_n of servo_dips in benchmarks/independent is within 0.5 %]
+inline constexpr double kDriveInSlip = 0.1;
+
 // ## Warnings
 
 /// Time constants of the sensor in a cycle, below which it is too slow. [1; derived: 8 pass before a ramp is fitted,

@@ -11,6 +11,7 @@
 #include "core/thrown_error.hpp"
 #include "io/levels.hpp"
 #include "io/sign.hpp"
+#include "io/strokes.hpp"
 
 namespace slipfit::reading {
 namespace {
@@ -83,7 +84,7 @@ void settle_sign(Interpreted& part) {
   if (!is_mostly_negative(force)) return;
   const SuddenChanges changes = sudden_changes(force);
   if (!is_negative_throughout(force)) {
-    const bool is_turned = changes == SuddenChanges::Rises && !is_reciprocating(part.motion());
+    const bool is_turned = changes == SuddenChanges::Rises && find_strokes(part.motion()).empty();
     if (is_turned) turn_sign(part, "The force is mostly negative and rises suddenly: its sign was reversed.");
   } else if (part.conditions.zero_force_N || changes != SuddenChanges::Falls) {
     turn_sign(part, "The force is negative throughout: its sign was reversed.");
@@ -94,17 +95,10 @@ void settle_sign(Interpreted& part) {
   }
 }
 
-ThrownError reciprocating(const std::vector<double>& time_s, const std::string& file) {
-  return ThrownError(
-      {"reciprocating", fmt::format("{}: the sign of the force changes with every stroke (a reciprocating test), and "
-                                    "one stroke is one recording; read all with --strokes, or one with --window T0:T1 "
-                                    "(in s; from {} to {}), or state the sensor reading at zero force with --zero",
-                                    file, time_s.front(), time_s.back())});
-}
-
 Recording create(Interpreted part, const std::string& file) {
   auto recording = Recording::create(std::move(part.rows.time_s), std::move(part.rows.force), part.conditions,
-                                     std::move(part.provenance), std::move(part.rows.normal_force_N));
+                                     std::move(part.provenance), std::move(part.rows.normal_force_N),
+                                     std::move(part.rows.displacement_m));
   if (!recording) throw ThrownError({recording.error().code, file + ": " + recording.error().message});
   return std::move(recording).value();
 }
@@ -126,7 +120,7 @@ SampleRange at_full_speed(const Rows& part, const Stroke& stroke) {
           std::min(stroke.end, stroke.begin + step * (1 + static_cast<std::size_t>(speeds.rend() - last)))};
 }
 
-/// Over what is kept of a stroke. Empty where no displacement is known.
+/// The speed of the displacement over what is kept of a stroke. Empty where no displacement is known.
 std::optional<double> moved_m_per_s(const Rows& part, const SampleRange& kept) {
   if (part.displacement_m.empty() || kept.size() < 2) return std::nullopt;
   const double moved_m = std::abs(part.displacement_m[kept.end - 1] - part.displacement_m[kept.begin]);
@@ -149,12 +143,63 @@ NamedRecording record(const Interpreted& part, const Stroke& stroke, std::size_t
   return {fmt::format("stroke {} ({})", number, sign), create(std::move(own), file)};
 }
 
+ThrownError no_long_stroke(const std::string& file) {
+  return ThrownError({"no_strokes", file + ": no stroke of this sign is longer than the reversal of the force; use "
+                                           "longer strokes, or a part of one with --window"});
+}
+
+/// The force at which the direction reverses: zero where the user states it, else midway between both directions.
+double force_at_reversal(const Interpreted& part, const std::vector<Stroke>& strokes) {
+  if (part.conditions.zero_force_N) return 0.0;
+  std::vector<double> positive;
+  std::vector<double> negative;
+  for (const Stroke& stroke : strokes) {
+    const auto forces = stroke.of(part.rows.force);
+    std::vector<double>& side = stroke.is_positive ? positive : negative;
+    side.insert(side.end(), forces.begin(), forces.end());
+  }
+  if (positive.empty() || negative.empty()) return 0.0;
+  return 0.5 * (quantile_of(std::move(positive), 0.5) + quantile_of(std::move(negative), 0.5));
+}
+
+/// All strokes of a reciprocating test as one recording: those backward turned, without the ends in which the force
+/// reverses. The clock keeps its gaps there.
+Interpreted pooled(Interpreted part, std::vector<Stroke> strokes, const std::string& file) {
+  std::erase_if(strokes, [](const Stroke& stroke) { return stroke.size() == 0; });
+  if (strokes.empty()) throw no_long_stroke(file);
+  const double reversal = force_at_reversal(part, strokes);
+  std::vector<std::size_t> kept;
+  std::vector<double> speeds_m_per_s;
+  for (const Stroke& stroke : strokes) {
+    const SampleRange range = at_full_speed(part.rows, stroke);
+    for (std::size_t i = range.begin; i < range.end; ++i) {
+      if (!stroke.is_positive) part.rows.force[i] = 2.0 * reversal - part.rows.force[i];
+      kept.push_back(i);
+    }
+    if (const auto moved = moved_m_per_s(part.rows, range)) speeds_m_per_s.push_back(*moved);
+  }
+  part.rows.keep(kept);
+  for (double& force : part.rows.force) force -= reversal;
+  part.provenance.strokes = strokes.size();
+  part.provenance.warnings.push_back(
+      {"strokes_pooled",
+       fmt::format("the drive reverses (a reciprocating test): {} strokes were analysed together, with "
+                   "the force of those backward turned and without the ends of each",
+                   strokes.size())});
+  if (speeds_m_per_s.empty()) return part;
+  const double speed_m_per_s = quantile_of(std::move(speeds_m_per_s), 0.5);
+  auto warning = compare_speed(part.conditions.speed_m_per_s, speed_m_per_s, "in the strokes the displacement");
+  if (warning) part.provenance.warnings.push_back(*std::move(warning));
+  return part;
+}
+
 }  // namespace
 
 Recording build_recording(Part part, const LoadedFile& file, const Conditions& conditions) {
   Interpreted one = interpret(std::move(part), file, conditions);
   settle_sign(one);
-  if (is_reciprocating(one.motion())) throw reciprocating(one.rows.time_s, file.name);
+  std::vector<Stroke> strokes = find_strokes(one.motion());
+  if (!strokes.empty()) one = pooled(std::move(one), std::move(strokes), file.name);
   return create(std::move(one), file.name);
 }
 
@@ -168,11 +213,9 @@ std::vector<NamedRecording> build_strokes(Part part, const LoadedFile& file, con
     if (is_wanted && strokes[i].begin < strokes[i].end) wanted.push_back(i);
   }
   if (wanted.empty()) {
-    const char* const why =
-        strokes.empty() ? ": the sign of the force does not alternate as in a reciprocating test; leave out --strokes"
-                        : ": no stroke of this sign is longer than the reversal of the force; use longer strokes, or a "
-                          "part of one with --window";
-    throw ThrownError({"no_strokes", file.name + why});
+    if (!strokes.empty()) throw no_long_stroke(file.name);
+    throw ThrownError({"no_strokes", file.name + ": the sign of the force does not alternate as in a reciprocating "
+                                                 "test; leave out --strokes"});
   }
   // Of both directions a pair at a time, so that each is there as often as the other.
   const std::size_t group = file.options.pieces == Pieces::Strokes ? 2 : 1;

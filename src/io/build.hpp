@@ -12,7 +12,7 @@
 namespace slipfit::reading {
 
 /// Forces that oppose the motion, and what the columns say of speed and load. Errors: those of check_part,
-/// state_conditions and Recording::create; reciprocating.
+/// state_conditions and Recording::create; no_strokes. The strokes of a reciprocating test are one recording.
 Recording build_recording(Part part, const LoadedFile& file, const Conditions& conditions);
 
 /// The strokes of a reciprocating test, of those of `file.options.pieces` at most `kMostPieces`, spread evenly. Errors:

@@ -13,8 +13,8 @@
 #include "io/message.hpp"
 #include "io/opened_file.hpp"
 #include "io/part.hpp"
-#include "io/sign.hpp"
 #include "io/steps.hpp"
+#include "io/strokes.hpp"
 
 namespace slipfit {
 namespace {

@@ -105,7 +105,7 @@ INPUTS = [
     ("steps whose clock begins again", STEPS, [], 0, "only step 1 was analysed"),
     ("one of them with --step", STEPS, ["--step", "2"], 0, "Only step 2 was read"),
     ("a sweep in one file with --segments", SWEEP, ["--segments"], 0, "segment 3"),
-    ("does not alternate as in a reciprocating test", rows(lambda i: f"{i / 100},{strokes(i):.4f}", 1600), V, 3, "read all with --strokes"),
+    ("strokes of a reciprocating test", rows(lambda i: f"{i / 100},{strokes(i):.4f}", 1600), V, 0, "8 strokes were analysed together"),
     ("the same with --strokes", rows(lambda i: f"{i / 100},{strokes(i):.4f}", 1600), [*V, "--strokes"], 0, "stroke 2 (-)"),
     ("--sheet on plain text", PLAIN, [*V, "--sheet", "2"], 3, "is plain text, which has no sheets"),
     ("gzip", gzip.compress(PLAIN.encode()), V, 0, "The file is compressed (gzip)."),

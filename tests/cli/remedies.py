@@ -170,7 +170,6 @@ CASES = [  # codes, words of the message, refused command, command with the reme
     ("time_runs_backwards", "--time-column", ["analyze", "backwards.csv", *V, "--time-column", "time"], ["analyze", "backwards.csv", *V, "--time-column", "clock"]),
     ("time_constant", "--time-column", ["analyze", "stands.csv", *V, "--time-column", "time"], ["analyze", "stands.csv", *V, "--time-column", "clock"]),
     ("time_too_coarse", "--sample-rate 50", *of_file("coarse.csv", "--sample-rate", "50")),
-    ("reciprocating", "--strokes", *of_file("strokes.csv", "--strokes")),
     ("no_strokes", "leave out --strokes", [*ANALYZE, "--strokes"], ANALYZE),
     ("no_segments", "leave out --segments", [*ANALYZE, "--segments"], ANALYZE),
     ("not_a_force", "normal_force_N", ["fit", "--joint", "cofs.csv"], ["fit", "--joint", "cofs_load.csv"]),

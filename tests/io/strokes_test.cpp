@@ -3,6 +3,7 @@
 #include <random>
 
 #include "io/sign.hpp"
+#include "io/strokes.hpp"
 #include "temp_file.hpp"
 
 using namespace io_test;
@@ -24,7 +25,7 @@ double fraction(double x) {
 }
 
 bool is_reciprocating(const std::vector<double>& force) {
-  return slipfit::reading::is_reciprocating({force, {}});
+  return !slipfit::reading::find_strokes({force, {}}).empty();
 }
 
 /// Strokes of +1 and -1, turning linearly over `turning` of each stroke.
@@ -82,12 +83,14 @@ TEST_CASE("strokes are distinguished from stick-slip by the levels at which the 
   }
 }
 
-TEST_CASE("a reciprocating recording is refused with the advice to use a window, and read with one") {
+TEST_CASE("the strokes of a reciprocating recording are one recording, and a window selects one of them") {
   const std::string content =
       text_of(sample([](double t) { return stroke(t, 8, 0.05) * (0.7 + 0.3 * fraction(t * 100)); }));
-  const auto error = read_error(content);
-  CHECK(error.code == "reciprocating");
-  CHECK(contains(error.message, "--window T0:T1"));
+  const auto whole = read_ok(content);
+  CHECK(whole.provenance().strokes == 8);
+  CHECK(warns(whole, "strokes_pooled"));
+  CHECK(*std::min_element(whole.force().begin(), whole.force().end()) > 0.6);
+  CHECK(whole.size() > 3000);
   slipfit::ReadOptions options;
   options.window = slipfit::TimeWindow{0.5, 4.5};
   const auto forward = read_ok(content, options);
@@ -203,7 +206,41 @@ TEST_CASE("strokes of a sinusoidal test with play are found, with and without a 
   }
   check_strokes_with_play(strokes_in(with));
   check_strokes_with_play(strokes_in(without));
-  CHECK(read_error(with).code == "reciprocating");
+  CHECK(read_ok(with).provenance().strokes == 12);
+}
+
+namespace {
+
+/// Strokes of two to three slips: the force rises by 1 in 100 samples and falls by 1 in 5.
+std::vector<double> short_strokes(int strokes, double offset) {
+  std::vector<double> forces;
+  double force = -2.0;
+  for (int stroke = 0; stroke < strokes; ++stroke) {
+    const double side = stroke % 2 == 0 ? 1.0 : -1.0;
+    for (int i = 0, fall = 0; i < 650; ++i) {
+      if (fall == 0 && force >= 2.0) fall = 5;
+      force += fall > 0 ? -0.2 : 0.01;
+      fall -= fall > 0 ? 1 : 0;
+      forces.push_back(side * force + offset);
+    }
+    force = -force;
+  }
+  return forces;
+}
+
+}  // namespace
+
+TEST_CASE("strokes whose reversal takes most of the time are found by slips to either side, whatever the zero is") {
+  for (const double offset : {0.0, 0.7, -5.0}) {
+    CAPTURE(offset);
+    const auto recording = read_ok(text_of(short_strokes(6, offset)));
+    CHECK(recording.provenance().strokes == 6);
+    const auto [low, high] = std::ranges::minmax_element(recording.force());
+    CHECK(*low > 0.9);
+    CHECK(*high < 2.1);
+  }
+  CHECK_FALSE(is_reciprocating(sample([&](double t) { return std::sin(30.0 * t) + 0.3 * fraction(t * 60.0); })));
+  CHECK_FALSE(is_reciprocating(sample([&](double t) { return std::sin(30.0 * t) + 0.3 * std::sin(300.0 * t); })));
 }
 
 TEST_CASE("a run between two rests whose sensor reads below zero is no reciprocating test") {

@@ -95,6 +95,7 @@ struct Provenance {
   /// The speed of a displacement column with its standard error; empty without such a column, or if the speed is not
   /// constant.
   std::optional<Estimate> moved_m_per_s{};
+  std::size_t strokes = 0;    ///< of a reciprocating test that were read as one recording; 0: no such test
   bool window_given = false;  ///< the user chose what part to read: nothing else is left out
   /// The options that the user stated for reading it: columns of a manifest and their cells.
   std::vector<std::pair<std::string, std::string>> options{};
@@ -105,15 +106,18 @@ class Recording {
  public:
   /// Creates a recording. `force` is in newtons, or a friction coefficient as `conditions.quantity` states.
   /// `normal_force_N` has a value for every sample if a column contains it; it is not used if a value is missing or not
-  /// finite. Errors: too_few_samples, length_mismatch, not_finite, time_decreases, time_constant, speed_not_positive,
-  /// normal_force_not_positive.
+  /// finite; the same holds for `drive_m`. Errors: too_few_samples, length_mismatch, not_finite, time_decreases,
+  /// time_constant, speed_not_positive, normal_force_not_positive.
   static Result<Recording> create(std::vector<double> time_s, std::vector<double> force, Conditions conditions,
-                                  Provenance provenance = {}, std::vector<double> normal_force_N = {});
+                                  Provenance provenance = {}, std::vector<double> normal_force_N = {},
+                                  std::vector<double> drive_m = {});
 
   [[nodiscard]] std::span<const double> time_s() const { return time_s_; }
   [[nodiscard]] std::span<const double> force() const { return force_; }
   /// Returns the measured normal force of each sample; empty if it was not measured.
   [[nodiscard]] std::span<const double> normal_force_N() const { return normal_force_N_; }
+  /// Returns the measured position of each sample, of the drive or of another part; empty if it was not measured.
+  [[nodiscard]] std::span<const double> drive_m() const { return drive_m_; }
   [[nodiscard]] std::size_t size() const { return time_s_.size(); }
   [[nodiscard]] const Conditions& conditions() const { return conditions_; }
   [[nodiscard]] const Provenance& provenance() const { return provenance_; }
@@ -144,6 +148,7 @@ class Recording {
   std::span<const double> time_s_;
   std::span<const double> force_;
   std::span<const double> normal_force_N_;
+  std::span<const double> drive_m_;
   Conditions conditions_;
   Provenance provenance_;
   double sample_interval_s_ = 0.0;
