@@ -52,6 +52,7 @@ Oscillator oscillator_of(const Recording& recording, const std::vector<Slip>& sl
   const std::optional<double> zeta = fit != nullptr ? fit->damping_ratio().value : std::nullopt;
   if (omega && zeta) return {*omega, *zeta};
   std::vector<double> durations_s;
+  durations_s.reserve(slips.size());
   for (const Slip& slip : slips) durations_s.push_back(recording.time_s()[slip.end] - recording.time_s()[slip.begin]);
   return {std::numbers::pi / median(std::move(durations_s)), kUsualDamping};
 }
