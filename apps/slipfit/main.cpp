@@ -1,7 +1,9 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <array>
 #include <csignal>
+#include <cstddef>
 
 #include "memory.hpp"
 #include "output.hpp"
@@ -18,10 +20,19 @@ void open_standard_streams() {
   }
 }
 
+/// Takes the stack that an analysis needs while there is memory: where it has to grow and cannot, the system ends the
+/// program.
+[[gnu::noinline]] void take_stack() {
+  constexpr std::size_t kPage = 4096;
+  std::array<volatile char, 256 * kPage> stack;  // NOLINT(cppcoreguidelines-pro-type-member-init)
+  for (std::size_t i = 0; i < stack.size(); i += kPage) stack[i] = 0;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   (void)std::signal(SIGXFSZ, SIG_IGN);  // a limit on the size of files is an error like a full disk
+  take_stack();
   open_standard_streams();
   keep_freed_memory();
   const std::vector<std::string> words(argv, argv + argc);
