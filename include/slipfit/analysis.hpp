@@ -136,7 +136,7 @@ struct Analysis {
   std::vector<AuditPair> audit;              ///< pairs of which both values are known; of stick-slip with a fit
   std::vector<ShortTest> tests;              ///< only where the kind of motion is stick-slip with a fit
   Timing timing;
-  std::optional<MeasuredDrive> drive{};  ///< where its measured motion was used in place of the stated speed
+  std::optional<MeasuredDrive> drive{};  ///< empty: the fit assumes that the drive moves at the stated speed
   std::optional<AskedFit> asked{};       ///< empty: no fit was asked for
 };
 

@@ -89,7 +89,7 @@ Estimate stated_speed(const Subject& of) {
 }
 
 Estimate speed_of_displacement(const Subject& of) {
-  if (of.analysis.drive) return {};  // used in place of the stated speed
+  if (of.analysis.drive) return {};  // the fit does not use the stated speed
   return of.recording.provenance().moved_m_per_s.value_or(Estimate{});
 }
 

@@ -9,19 +9,14 @@
 #include "analysis/slip_shape.hpp"
 #include "core/line_sums.hpp"
 #include "core/quantile.hpp"
+#include "core/sample_range.hpp"
 #include "core/student.hpp"
 #include "core/thresholds.hpp"
 
 namespace slipfit {
 namespace {
 
-/// A slip from its first sample to the first one at rest.
-struct Slip {
-  std::size_t begin = 0;
-  std::size_t end = 0;
-};
-
-/// A body on a spring, as far as it decides what a motion of the drive changes in a slip.
+/// The oscillator that decides how far the body follows a motion of the drive in a slip.
 struct Oscillator {
   double omega_rad_per_s = 0.0;
   double damping_ratio = 0.0;
@@ -31,12 +26,13 @@ std::size_t sample_at(std::span<const double> time_s, double seconds) {
   return static_cast<std::size_t>(std::ranges::lower_bound(time_s, seconds) - time_s.begin());
 }
 
-/// The slips by the fit where it has them, else from peak to trough.
-std::vector<Slip> slips_of(const Recording& recording, const Segmentation& segmentation, const FitResult* fit) {
+/// Returns the slips, each from its first sample to the first one at rest: by the fit where it has them, else from peak
+/// to trough.
+std::vector<SampleRange> slips_of(const Recording& recording, const Segmentation& segmentation, const FitResult* fit) {
   const std::span<const double> time_s = recording.time_s();
-  std::vector<Slip> slips;
+  std::vector<SampleRange> slips;
   for (std::size_t i = 0; i < segmentation.slips.size(); ++i) {
-    Slip slip{segmentation.slips[i].peak, segmentation.slips[i].trough};
+    SampleRange slip{segmentation.slips[i].peak, segmentation.slips[i].trough};
     if (fit != nullptr && i < fit->cycles.size() && fit->cycles[i].onset_s && fit->cycles[i].end_s) {
       slip = {sample_at(time_s, *fit->cycles[i].onset_s), sample_at(time_s, *fit->cycles[i].end_s)};
     }
@@ -46,14 +42,15 @@ std::vector<Slip> slips_of(const Recording& recording, const Segmentation& segme
   return slips;
 }
 
-Oscillator oscillator_of(const Recording& recording, const std::vector<Slip>& slips, const FitResult* fit) {
+Oscillator oscillator_of(const Recording& recording, const std::vector<SampleRange>& slips, const FitResult* fit) {
   constexpr double kUsualDamping = 0.05;
   const std::optional<double> omega = fit != nullptr ? fit->natural_frequency().value : std::nullopt;
   const std::optional<double> zeta = fit != nullptr ? fit->damping_ratio().value : std::nullopt;
   if (omega && zeta) return {*omega, *zeta};
   std::vector<double> durations_s;
   durations_s.reserve(slips.size());
-  for (const Slip& slip : slips) durations_s.push_back(recording.time_s()[slip.end] - recording.time_s()[slip.begin]);
+  for (const SampleRange& slip : slips)
+    durations_s.push_back(recording.time_s()[slip.end] - recording.time_s()[slip.begin]);
   return {std::numbers::pi / median(std::move(durations_s)), kUsualDamping};
 }
 
@@ -86,39 +83,37 @@ struct Regression {
 };
 
 std::optional<Regression> regress(const Recording& recording, const std::vector<double>& off_m,
-                                  const std::vector<Slip>& slips) {
+                                  const std::vector<SampleRange>& slips) {
   constexpr double kEnds = 0.1;  // of a stick at either end, where a slip may begin or end
   const auto place = [&](std::size_t i) {
     return off_m[i] + recording.conditions().speed_m_per_s * (recording.time_s()[i] - recording.time_s()[0]);
   };
-  double xx = 0.0, xy = 0.0, yy = 0.0, moved_m = 0.0, seconds = 0.0, count = 0.0;
+  LineSums all;
+  double moved_m = 0.0, seconds = 0.0;
   for (std::size_t s = 1; s < slips.size(); ++s) {
     const auto less = static_cast<std::size_t>(kEnds * static_cast<double>(slips[s].begin - slips[s - 1].end));
     const std::size_t begin = slips[s - 1].end + less;
     const std::size_t end = slips[s].begin - less;
     if (end < begin + 4) continue;
-    double x = 0.0, y = 0.0;
-    const auto samples = static_cast<double>(end - begin);
-    for (std::size_t i = begin; i < end; ++i) x += place(i) / samples, y += recording.force()[i] / samples;
-    for (std::size_t i = begin; i < end; ++i) {
-      const double dx = place(i) - x;
-      const double dy = recording.force()[i] - y;
-      xx += dx * dx, xy += dx * dy, yy += dy * dy;
-    }
+    const LineSums stick = line_sums(
+        end - begin, [&](std::size_t i) { return place(begin + i); },
+        [&](std::size_t i) { return recording.force()[begin + i]; });
+    all.count += stick.count - 1.0;
+    all.square += stick.square;
+    all.cross += stick.cross;
+    all.scatter += stick.scatter;
     moved_m += place(end - 1) - place(begin);
     seconds += recording.time_s()[end - 1] - recording.time_s()[begin];
-    count += samples - 1.0;
   }
-  if (!(count > 2.0) || !(xx > 0.0) || !(xy > 0.0)) return std::nullopt;
-  const double stiffness = xy / xx;
-  const double variance = std::max(0.0, yy - stiffness * xy) / (count - 1.0) / xx;
-  return Regression{stiffness, std::sqrt(variance), moved_m / seconds};
+  if (!(all.count > 2.0) || !(all.square > 0.0) || !(all.cross > 0.0)) return std::nullopt;
+  const double variance = std::max(0.0, all.scatter - all.slope() * all.cross) / (all.count - 1.0) / all.square;
+  return Regression{all.slope(), std::sqrt(variance), moved_m / seconds};
 }
 
 /// What a motion of the drive by off_m adds to the force: all of it while the body sticks; in a slip what the body
 /// does not follow.
 std::vector<double> force_of(const std::vector<double>& off_m, const Recording& recording,
-                             const std::vector<Slip>& slips, double stiffness_N_per_m, const Oscillator& body) {
+                             const std::vector<SampleRange>& slips, double stiffness_N_per_m, const Oscillator& body) {
   constexpr int kSubsteps = 8;
   const std::span<const double> time_s = recording.time_s();
   std::vector<double> added(off_m.size(), 0.0);
@@ -149,7 +144,8 @@ std::vector<double> force_of(const std::vector<double>& off_m, const Recording& 
 }
 
 /// The line through what is added at the onsets of slips: what is left does not move the level of the force.
-LineSums trend_at_onsets(const std::vector<double>& added, const Recording& recording, const std::vector<Slip>& slips) {
+LineSums trend_at_onsets(const std::vector<double>& added, const Recording& recording,
+                         const std::vector<SampleRange>& slips) {
   return line_sums(
       slips.size(), [&](std::size_t i) { return recording.time_s()[slips[i].begin]; },
       [&](std::size_t i) { return added[slips[i].begin]; });
@@ -158,16 +154,16 @@ LineSums trend_at_onsets(const std::vector<double>& added, const Recording& reco
 /// Median over the slips of how far the drive moves in them more than at its speed in the sticks, which is lower
 /// than the stated one by this much.
 double moved_in_slips_m(const std::vector<double>& off_m, double excess_m_per_s, const Recording& recording,
-                        const std::vector<Slip>& slips) {
+                        const std::vector<SampleRange>& slips) {
   std::vector<double> moved_m;
-  for (const Slip& slip : slips) {
+  for (const SampleRange& slip : slips) {
     const double seconds = recording.time_s()[slip.end] - recording.time_s()[slip.begin];
     moved_m.push_back(std::abs(off_m[slip.end] - off_m[slip.begin] + excess_m_per_s * seconds));
   }
   return median(std::move(moved_m));
 }
 
-bool is_of_drive(const Recording& recording, const std::vector<Slip>& slips, double stick_speed_m_per_s) {
+bool is_of_drive(const Recording& recording, const std::vector<SampleRange>& slips, double stick_speed_m_per_s) {
   constexpr double kStated = 0.05;     // farther off, the column or the statement is wrong
   constexpr double kLeastStick = 0.3;  // a body moves in slips alone
   const std::span<const double> x_m = recording.drive_m();
@@ -185,7 +181,7 @@ std::optional<SteadyDrive> at_steady_drive(const Recording& recording, const Seg
   if (recording.drive_m().empty() || recording.provenance().strokes > 0 || !slips_are_sudden(segmentation)) {
     return std::nullopt;
   }
-  const std::vector<Slip> slips = slips_of(recording, segmentation, fit);
+  const std::vector<SampleRange> slips = slips_of(recording, segmentation, fit);
   if (slips.size() < kFewest) return std::nullopt;
   const std::vector<double> off_m = deviation_of(recording);
   const std::optional<Regression> sticks = regress(recording, off_m, slips);

@@ -269,6 +269,7 @@ FrequencyReport quote_frequency(const Recording& recording, const Signals& signa
                                 const Classification& classification, const FitResult* fit) {
   const MotionClass motion = classification.motion;
   const bool slides = motion == MotionClass::StickSlip || motion == MotionClass::OscillatorySlip;
+  const Estimate counted = count_frequency(recording, signals.segmentation);
   FrequencyReport report;
   report.quoted.note = motion == MotionClass::SteadySliding ? "steady sliding has no slips"
                                                             : "no slips were found, so no frequency is quoted";
@@ -283,13 +284,13 @@ FrequencyReport quote_frequency(const Recording& recording, const Signals& signa
         usable && !has_strokes ? of_fit(recording, signals, *fit) : std::nullopt;
     if (has_strokes) {
       report.method = FrequencyMethod::SlipCounting;
-      report.quoted = count_frequency(recording, signals.segmentation);
+      report.quoted = counted;
     } else {
       report = fitted ? *fitted : of_trace(recording, signals, classification);
     }
   }
   report.spectral = signals.spectral;
-  report.counted = count_frequency(recording, signals.segmentation);
+  report.counted = counted;
   std::erase_if(report.spectral.suspicious_lines, [&](const SuspiciousLine& line) {
     return is_multiple_of(line.frequency_Hz, report.quoted, 1.0 / recording.duration_s());
   });

@@ -142,33 +142,4 @@ std::optional<RelaxingPeriod> relaxing_period(double z0, double zeta, double sha
 /// Returns whether there are such slips.
 bool relaxing_repeats(double z0, double zeta, double share, double time);
 
-/// Holds the limit cycle of a body on a spring that relaxes; forces of the spring above F_k.
-template <class Number>
-struct RelaxingCycleOf {
-  Number slip_s, period_s, peak_N, trough_N;
-};
-/// A body on a spring that relaxes, in SI. Its numbers are jets.
-template <class Number>
-struct RelaxingBody {
-  Number stiffness_N_per_m, omega_rad_per_s, zeta, difference_N, share, time_s;
-
-  /// Returns the limit cycle with the derivatives of the body's numbers; it is empty where there is none.
-  [[nodiscard]] std::optional<RelaxingCycleOf<Number>> cycle_at(double speed_m_per_s) const {
-    const Number unit_N = stiffness_N_per_m * speed_m_per_s / omega_rad_per_s;
-    const Number lambda = difference_N / unit_N;
-    if (!(lambda.a > 0.0) || !(std::abs(zeta.a) < 1.0)) return std::nullopt;
-    const Number z0 = lambda - 2.0 * zeta;
-    const Number time = omega_rad_per_s * time_s;
-    const std::optional<RelaxingPeriod> found = relaxing_period(z0.a, zeta.a, share.a, time.a);
-    if (!found) return std::nullopt;
-    const auto of = [&](const RelaxingSlip::Column& column) {
-      Number value(column[0]);
-      value.v = column[1] * z0.v + column[2] * zeta.v + column[3] * share.v + column[4] * time.v;
-      return value;
-    };
-    return RelaxingCycleOf<Number>{of(found->slip) / omega_rad_per_s, of(found->period) / omega_rad_per_s, z0 * unit_N,
-                                   of(found->trough) * unit_N};
-  }
-};
-
 }  // namespace slipfit::model

@@ -81,9 +81,10 @@ struct SlidingBody {
     return track && track->resticks();
   }
 
-  /// Returns F_s - F_k(0+) of the limit cycle, to a share of `sharp`, where static friction ages; empty where there is
-  /// no such cycle.
+  /// Returns F_s - F_k(0+) of the limit cycle: `difference_N` or, where static friction ages, that after its sticks, to
+  /// a share of `sharp`; empty where it ages and there is no such cycle.
   [[nodiscard]] std::optional<Number> aged_difference_N(double sharp = kSharpDifference) const {
+    if (!ageing) return difference_N;
     const std::optional<Aged> found = aged(sharp);
     if (!found) return std::nullopt;
     SlidingBody held = *this;
@@ -160,19 +161,14 @@ struct SlidingBody {
     return body;
   }
 
-  /// Without the rise after slips.
+  /// Returns the limit cycle without the rise after slips.
   [[nodiscard]] std::optional<SlidingCycle<Number>> straight_cycle() const {
     if (!(difference_N.a > 0.0) || !(std::abs(zeta.a) < 1.0)) return std::nullopt;
-    if (relaxation) {
-      const RelaxingBody<Number> body{stiffness_N_per_m, omega_rad_per_s,   zeta,
-                                      difference_N,      relaxation->share, relaxation->time_s};
-      const auto cycle = body.cycle_at(speed_m_per_s);
-      if (!cycle) return std::nullopt;
-      return SlidingCycle<Number>{cycle->slip_s, cycle->period_s - cycle->slip_s, cycle->peak_N, cycle->trough_N};
-    }
     const SlipJets<Number> jets = slip();
     std::optional<ScaledCycle<Number>> scaled;
-    if (depends_on_speed()) {
+    if (relaxation) {
+      scaled = relaxing_cycle(jets.z0);
+    } else if (depends_on_speed()) {
       const auto track = jets.solve();
       if (track) scaled = jets.cycle(*track);
     } else {
@@ -181,6 +177,19 @@ struct SlidingBody {
     if (!scaled) return std::nullopt;
     return SlidingCycle<Number>{scaled->slip / omega_rad_per_s, scaled->stick / omega_rad_per_s,
                                 scaled->peak * jets.force_unit_N, scaled->trough * jets.force_unit_N};
+  }
+
+  [[nodiscard]] std::optional<ScaledCycle<Number>> relaxing_cycle(const Number& z0) const {
+    const Number time = omega_rad_per_s * relaxation->time_s;
+    const std::optional<RelaxingPeriod> found = relaxing_period(z0.a, zeta.a, relaxation->share.a, time.a);
+    if (!found) return std::nullopt;
+    const auto of = [&](const RelaxingSlip::Column& column) {
+      Number value(column[0]);
+      value.v = column[1] * z0.v + column[2] * zeta.v + column[3] * relaxation->share.v + column[4] * time.v;
+      return value;
+    };
+    const Number slip = of(found->slip);
+    return ScaledCycle<Number>{slip, of(found->period) - slip, z0, of(found->trough)};
   }
 
   template <class Value>

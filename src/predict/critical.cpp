@@ -48,7 +48,7 @@ double refined(const ModelEstimate& model, Bracket bracket, double sharp) {
   return bracket.sticks;
 }
 
-/// The end next to that of a model which is hardly another; empty where there is none near it.
+/// Returns the end of a model near that of another which hardly differs from it; empty where there is none.
 std::optional<double> end_near(const ModelEstimate& model, double near_m_per_s) {
   constexpr double kFarthest = 2.0;
   for (double distance = 1e-3; distance < kFarthest; distance *= 4.0) {  // of ln V
@@ -60,7 +60,7 @@ std::optional<double> end_near(const ModelEstimate& model, double near_m_per_s) 
   return std::nullopt;
 }
 
-/// The end with its derivatives, by differences to either side.
+/// Returns the end with its derivatives, by differences to either side.
 std::optional<Jet> end_with_derivatives(const ModelEstimate& model, double end_m_per_s) {
   constexpr double kSmallStep = 1e-3;  // of the first four where they are held: other speeds may widen them
   Jet end(end_m_per_s);
@@ -75,7 +75,7 @@ std::optional<Jet> end_with_derivatives(const ModelEstimate& model, double end_m
     const auto end_after = [&](double move) {
       ModelEstimate other = model;
       double& value = *other.find(id);
-      value = enters_as_logarithm(id) ? value * std::exp(move) : value + move;
+      value = moved(id, value, move);
       return end_near(other, end_m_per_s);
     };
     const std::optional<double> above = end_after(step);
@@ -98,7 +98,8 @@ class EndsOfDraws {
     for (const ModelEstimate& draw : draws_of(model)) draws_.push_back({draw, 0.0, HUGE_VAL});
   }
 
-  /// To a share of 1e-3. 0 where that model has no stick-slip at any speed, infinite where it has at all.
+  /// Returns the speed below which this share of the models ends stick-slip, accurate to 1e-3 of it; 0 where the model
+  /// at this share has no stick-slip at any speed, infinite where it has stick-slip at every speed.
   [[nodiscard]] double quantile_m_per_s(double share) {
     constexpr double kSharpQuantile = 1e-3;
     if (draws_.empty()) return 0.0;
@@ -204,14 +205,12 @@ End end_of(const ModelEstimate& model) {
   End end{end_of_stick_slip_m_per_s(model, sharpness_of(model).of_end)};
   if (end.speed_m_per_s == 0.0 || std::isinf(end.speed_m_per_s)) return end;
   end.speed = end_with_derivatives(model, end.speed_m_per_s);
-  end.difference_N = model.friction_difference_N;
-  if (!model.ageing) return end;
   const std::optional<Plain> aged_N = body_at<Plain>(model, end.speed_m_per_s).aged_difference_N();
-  if (aged_N) end.difference_N = aged_N->a;
+  end.difference_N = aged_N ? aged_N->a : model.friction_difference_N;
   return end;
 }
 
-/// By the covariance of `model`, whose own stick-slip has this end.
+/// Returns the critical point by the covariance of `model`, whose own stick-slip has this end.
 CriticalPoint point_of(const ModelEstimate& model, const End& end) {
   if (!has_law(model) && !model.damping_identified) {
     return by_draws(model, "the damping ratio cannot be distinguished from 0", end.speed_m_per_s);

@@ -7,8 +7,8 @@
 
 namespace slipfit::predict {
 
-/// Where stick-slip from rest ends: at zeta = 0 nowhere; from zeta = 1 on there is none. The interval of the speed may
-/// reach to infinity: it has no value then.
+/// Holds where stick-slip from rest ends. At zeta = 0 it never ends; from zeta = 1 on there is none. The interval of
+/// the speed may reach to infinity: it has no value then.
 struct CriticalPoint {
   Estimate lambda, speed_m_per_s;
 

@@ -33,6 +33,11 @@ AnyJet parameter_of(const ModelEstimate& model, ParameterId id) {
   return jet;
 }
 
+/// Returns the value of one of kModelParameters after a move of what the covariance is of.
+inline double moved(ParameterId id, double value, double move) {
+  return enters_as_logarithm(id) ? value * std::exp(move) : value + move;
+}
+
 /// Returns the model's body at a speed.
 template <class AnyJet>
 model::SlidingBody<AnyJet> body_at(const ModelEstimate& model, double speed_m_per_s) {

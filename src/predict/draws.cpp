@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/student.hpp"
+#include "predict/delta.hpp"
 
 namespace slipfit::predict {
 namespace {
@@ -52,13 +53,12 @@ bool is_model(const ModelEstimate& model) {
 }
 
 /// Returns the moved model; empty where it is no model.
-std::optional<ModelEstimate> moved(const ModelEstimate& model, const VectorXd& step) {
+std::optional<ModelEstimate> moved_model(const ModelEstimate& model, const VectorXd& step) {
   ModelEstimate other = model;
   for (std::size_t i = 0; i < kModelValues; ++i) {
     double* const value = other.find(kModelParameters[i]);
     if (value == nullptr) continue;
-    const double move = step(static_cast<Index>(i));
-    *value = enters_as_logarithm(kModelParameters[i]) ? *value * std::exp(move) : *value + move;
+    *value = moved(kModelParameters[i], *value, step(static_cast<Index>(i)));
   }
   return is_model(other) ? std::optional(other) : std::nullopt;
 }
@@ -89,7 +89,7 @@ std::vector<ModelEstimate> draws_of(const ModelEstimate& model) {
   const MatrixXd steps = root_of(model) * normals;
   std::vector<ModelEstimate> draws;
   for (Index i = 0; i < steps.cols(); ++i) {
-    if (const std::optional<ModelEstimate> draw = moved(model, steps.col(i))) draws.push_back(*draw);
+    if (const std::optional<ModelEstimate> draw = moved_model(model, steps.col(i))) draws.push_back(*draw);
   }
   return draws;
 }

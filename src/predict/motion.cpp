@@ -4,10 +4,8 @@ namespace slipfit::predict {
 
 ModelMotion motion_at(const ModelEstimate& model, double speed_m_per_s, double sharp) {
   model::SlidingBody<Jet> body = body_at<Jet>(model, speed_m_per_s);
-  if (body.ageing) {
-    // Where each slip is smaller than the one before, nothing sticks in the end: as for F_s = F_k.
-    body.difference_N = body.aged_difference_N(sharp).value_or(Jet(0.0));
-  }
+  // Where each slip is smaller than the one before, nothing sticks in the end: as for F_s = F_k.
+  body.difference_N = body.aged_difference_N(sharp).value_or(Jet(0.0));
   ModelMotion motion;
   motion.cycle = body.cycle();
   motion.lambda = motion.cycle ? body.lambda() : body_at<Jet>(model, speed_m_per_s).lambda();

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "predict/delta.hpp"
 #include "slipfit/predict/prediction.hpp"
 
 namespace test {
@@ -13,7 +14,7 @@ namespace test {
 inline slipfit::PredictionModel moved(slipfit::PredictionModel model, std::size_t i, double step) {
   const slipfit::ParameterId id = slipfit::kModelParameters[i];
   if (double* const value = model.estimate.find(id)) {
-    *value = slipfit::enters_as_logarithm(id) ? *value * std::exp(step) : *value + step;
+    *value = slipfit::predict::moved(id, *value, step);
   }
   return model;
 }

@@ -46,11 +46,9 @@ model::SlidingBody<Jet> SlidingModel::body_at(double speed_m_per_s, double load)
 
 std::optional<Jet> SlidingModel::spacing(double speed_m_per_s, double load) const {
   model::SlidingBody<Jet> body = body_at(speed_m_per_s, load);
-  if (body.ageing) {
-    const std::optional<Jet> aged_N = body.aged_difference_N();
-    if (!aged_N) return std::nullopt;
-    body.difference_N = *aged_N;
-  }
+  const std::optional<Jet> aged_N = body.aged_difference_N();
+  if (!aged_N) return std::nullopt;
+  body.difference_N = *aged_N;
   const auto limit = body.cycle();
   return limit ? std::optional(speed_m_per_s * limit->period_s()) : std::nullopt;
 }

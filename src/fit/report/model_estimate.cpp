@@ -22,17 +22,17 @@ Correlation correlation_of(const ModelEstimate& estimate, const std::vector<std:
   return correlation;
 }
 
-/// The parameter as it enters the covariance.
-Jet entering(const SlidingModel& model, ParameterId id) {
+/// Returns one of kModelParameters that the model contains.
+Jet value_of(const SlidingModel& model, ParameterId id) {
   switch (id) {
     case ParameterId::Stiffness:
-      return log(model.stiffness);
+      return model.stiffness;
     case ParameterId::NaturalFrequency:
-      return log(model.omega);
+      return model.omega;
     case ParameterId::DampingRatio:
       return model.zeta;
     case ParameterId::FrictionDifference:
-      return log(model.difference);
+      return model.difference;
     case ParameterId::FrictionSlope:
       return model.slope;
     case ParameterId::Alpha:
@@ -44,13 +44,13 @@ Jet entering(const SlidingModel& model, ParameterId id) {
     case ParameterId::ReloadForce:
       return model.reload->force_N;
     case ParameterId::ReloadLength:
-      return log(model.reload->length_m);
+      return model.reload->length_m;
     case ParameterId::StiffnessExponent:
       return model.stiffness_exponent;
     case ParameterId::Relaxation:
       return model.relaxation->share;
     default:
-      return log(model.relaxation->time_s);
+      return model.relaxation->time_s;
   }
 }
 
@@ -74,13 +74,16 @@ std::optional<EstimatedModel> model_of(const Findings& findings, const SlidingMo
   }
   if (model.relaxation) estimate.relaxing = RelaxingSpring{model.relaxation->share.a, model.relaxation->time_s.a};
   std::vector<std::size_t> used;
+  std::vector<Jet> entering;  // the covariance
   for (std::size_t i = 0; i < kModelValues; ++i) {
-    if (estimate.find(kModelParameters[i]) != nullptr) used.push_back(i);
+    const ParameterId id = kModelParameters[i];
+    if (estimate.find(id) == nullptr) continue;
+    used.push_back(i);
+    entering.push_back(enters_as_logarithm(id) ? log(value_of(model, id)) : value_of(model, id));
   }
-  for (const std::size_t i : used) {
-    for (const std::size_t j : used) {
-      estimate.covariance[i][j] = findings.intervals.whole_covariance(entering(model, kModelParameters[i]),
-                                                                      entering(model, kModelParameters[j]));
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    for (std::size_t j = 0; j < used.size(); ++j) {
+      estimate.covariance[used[i]][used[j]] = findings.intervals.whole_covariance(entering[i], entering[j]);
     }
   }
   estimate.degrees_of_freedom =

@@ -79,6 +79,12 @@ double working_value(const std::string& file, const JsonNode& document, const st
   return *value;
 }
 
+/// Returns whether the model of the document has a parameter.
+bool contains(const JsonNode& document, ParameterId id) {
+  const std::optional<JsonNode> correlation = document.known("correlation");
+  return correlation && find_row(correlation->member("names"), key_of(id));
+}
+
 std::optional<SpeedDependence> speed_dependence(const std::string& file, const JsonNode& document) {
   const auto tier = document.known("model", "tier");
   if (!tier || tier->text() != "velocity") return std::nullopt;
@@ -91,16 +97,11 @@ std::optional<Ageing> ageing(const std::string& file, const JsonNode& document) 
   if (!stick_s) return std::nullopt;
   const double rate_N = working_value(file, document, key_of(ParameterId::Ageing));
   if (!(rate_N > 0.0)) cannot_predict(file, "ageing_N is not above 0");
-  const bool has_cutoff =
-      find_row(document.member("correlation").member("names"), key_of(ParameterId::AgeingTime)).has_value();
-  const double cutoff_s = has_cutoff ? working_value(file, document, key_of(ParameterId::AgeingTime)) : 0.0;
+  const double cutoff_s = contains(document, ParameterId::AgeingTime)
+                              ? working_value(file, document, key_of(ParameterId::AgeingTime))
+                              : 0.0;
   if (!(cutoff_s >= 0.0)) cannot_predict(file, "ageing_time_s is below 0");
   return Ageing{rate_N, stick_s->positive(), cutoff_s};
-}
-
-bool contains(const JsonNode& document, ParameterId id) {
-  const std::optional<JsonNode> correlation = document.known("correlation");
-  return correlation && find_row(correlation->member("names"), key_of(id));
 }
 
 std::optional<Reloading> reloading(const std::string& file, const JsonNode& document) {
