@@ -236,28 +236,36 @@ Classification classify_by_fit(const Recording& recording, const Estimates& esti
           false, true};
 }
 
-}  // namespace
-
-Classification classify(const Recording& recording, const Estimates& estimates) {
-  Classification classification = classify_by_fit(recording, estimates);
-  if (!classification.model_fits && follows_drive_path(recording.conditions(), estimates.signals.segmentation)) {
-    return {MotionClass::SteadySliding,
-            fmt::format("the force repeats every {:.4g} mm, the stated drive path: ripple, not slips",
-                        1e3 * *recording.conditions().drive_path_m)};
+/// Returns true if the fit has the body stick for more than half of the time.
+bool sticks_mostly(const FitResult& fit) {
+  double slips_s = 0.0;
+  double periods_s = 0.0;
+  for (const Cycle& cycle : fit.cycles) {
+    if (!cycle.used || !cycle.recovery_s) continue;
+    slips_s += *cycle.end_s - *cycle.onset_s;
+    periods_s += *cycle.recovery_s;
   }
-  const bool keeps_time = keeps_time_like_a_clock(recording, estimates.signals.spectral);
-  if (classification.motion == MotionClass::OscillatorySlip && !classification.dies_out && keeps_time) {
-    if (is_faint(estimates.signals.segmentation)) {
-      return {MotionClass::SteadySliding,
-              "oscillation not much larger than the noise with a constant period: pick-up on steady sliding"};
-    }
-    return {MotionClass::Undetermined,
-            "oscillation without sticks and with a constant period: pick-up, ripple of the drive or a vibration"};
-  }
-  return classification;
+  return 2.0 * slips_s < periods_s;
 }
 
-Classification classify_by_shape(const Recording& recording, const Signals& signals) {
+/// Stick-slip has straight sticks where it sticks for most of the time: round rises are none.
+Classification unless_round(Classification classification, const Recording& recording, const Estimates& estimates) {
+  const Segmentation& segmentation = estimates.signals.segmentation;
+  const bool has_long_sticks = slips_are_sudden(segmentation) || (estimates.fit && sticks_mostly(*estimates.fit));
+  const bool is_slipping = classification.motion == MotionClass::StickSlip;
+  if (!is_slipping || !has_long_sticks || !rises_are_round(recording, segmentation)) return classification;
+  if (keeps_rhythm(segmentation)) {
+    return {MotionClass::OscillatorySlip,
+            "the force rises along round curves, not along straight sticks: an oscillation"};
+  }
+  return {
+      MotionClass::Undetermined,
+      "the force rises along round curves, not along straight sticks, and without a period: ridges of the surface or "
+      "an irregular oscillation"};
+}
+
+/// Classifies by the shape of the falls alone.
+Classification by_falls(const Recording& recording, const Signals& signals) {
   const Segmentation& segmentation = signals.segmentation;
   const SpectralFrequency& spectral = signals.spectral;
   if (auto early = by_counts(recording, segmentation, spectral)) return *early;
@@ -277,6 +285,31 @@ Classification classify_by_shape(const Recording& recording, const Signals& sign
     return {MotionClass::Undetermined, "too few force drops to distinguish slips from ripple without a fit"};
   }
   return {MotionClass::Undetermined, "the force falls about as slowly as it rises: only a fit can decide"};
+}
+
+}  // namespace
+
+Classification classify(const Recording& recording, const Estimates& estimates) {
+  Classification classification = unless_round(classify_by_fit(recording, estimates), recording, estimates);
+  if (!classification.model_fits && follows_drive_path(recording.conditions(), estimates.signals.segmentation)) {
+    return {MotionClass::SteadySliding,
+            fmt::format("the force repeats every {:.4g} mm, the stated drive path: ripple, not slips",
+                        1e3 * *recording.conditions().drive_path_m)};
+  }
+  const bool keeps_time = keeps_time_like_a_clock(recording, estimates.signals.spectral);
+  if (classification.motion == MotionClass::OscillatorySlip && !classification.dies_out && keeps_time) {
+    if (is_faint(estimates.signals.segmentation)) {
+      return {MotionClass::SteadySliding,
+              "oscillation not much larger than the noise with a constant period: pick-up on steady sliding"};
+    }
+    return {MotionClass::Undetermined,
+            "oscillation without sticks and with a constant period: pick-up, ripple of the drive or a vibration"};
+  }
+  return classification;
+}
+
+Classification classify_by_shape(const Recording& recording, const Signals& signals) {
+  return unless_round(by_falls(recording, signals), recording, {signals, {}});
 }
 
 }  // namespace slipfit

@@ -282,7 +282,9 @@ FrequencyReport quote_frequency(const Recording& recording, const Signals& signa
     const bool has_strokes = recording.provenance().strokes > 0;  // each of them begins with a phase of its own
     const std::optional<FrequencyReport> fitted =
         usable && !has_strokes ? of_fit(recording, signals, *fit) : std::nullopt;
-    if (has_strokes) {
+    if (motion == MotionClass::OscillatorySlip && pace_changes(signals.segmentation)) {
+      report.quoted.note = "the frequency of the oscillation changes: analyse each part with --window T0:T1";
+    } else if (has_strokes) {
       report.method = FrequencyMethod::SlipCounting;
       report.quoted = counted;
     } else {

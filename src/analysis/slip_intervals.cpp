@@ -137,6 +137,14 @@ std::optional<std::string> broken_rhythm(const Recording& recording, const Segme
       broken);
 }
 
+bool pace_changes(const Segmentation& segmentation) {
+  std::vector<double> seconds;
+  for (std::size_t i = 2; i < segmentation.slips.size(); ++i) {
+    seconds.push_back(segmentation.slips[i].middle_s - segmentation.slips[i - 1].middle_s);
+  }
+  return is_change(best_split(seconds));
+}
+
 std::optional<std::string> change_on_the_way(const Segmentation& segmentation) {
   const std::vector<DetectedSlip>& slips = segmentation.slips;
   std::vector<double> seconds, drops;

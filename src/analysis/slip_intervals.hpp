@@ -30,6 +30,9 @@ Estimate count_frequency(const Recording& recording, const Segmentation& segment
 /// Says how many intervals do not fit a regular rhythm; empty where all do.
 std::optional<std::string> broken_rhythm(const Recording& recording, const Segmentation& segmentation);
 
+/// Returns true if the interval between slips differs between two parts of the recording.
+bool pace_changes(const Segmentation& segmentation);
+
 /// Says how the interval or the drop changes at the moment that separates the values best; empty where their scatter
 /// explains the change.
 std::optional<std::string> change_on_the_way(const Segmentation& segmentation);

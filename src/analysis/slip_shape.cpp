@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
 #include <utility>
 
+#include "core/line_sums.hpp"
 #include "core/quantile.hpp"
 #include "core/slip_thresholds.hpp"
 #include "core/student.hpp"
@@ -38,6 +41,23 @@ double second_difference(std::span<const double> force, const std::vector<bool>&
     count += 1.0;
   }
   return sum / count;
+}
+
+/// Twice the log-likelihood of a line through the samples less that of half a cosine from the first to the last of
+/// them, each at its best noise.
+double evidence_of_line(const Recording& recording, const SampleRange& range) {
+  const std::span<const double> time_s = recording.time_s().subspan(range.begin, range.size());
+  const std::span<const double> force = recording.force().subspan(range.begin, range.size());
+  const double duration_s = time_s.back() - time_s.front();
+  if (!(duration_s > 0.0)) return 0.0;
+  const auto share = [&](std::size_t i) { return (time_s[i] - time_s.front()) / duration_s; };
+  const auto rest_of = [&](const auto& x) {
+    const LineSums line = line_sums(force.size(), x, [&](std::size_t i) { return force[i]; });
+    return std::max(line.scatter - line.slope() * line.cross, std::numeric_limits<double>::min());
+  };
+  const double of_line = rest_of(share);
+  const double of_cosine = rest_of([&](std::size_t i) { return std::cos(std::numbers::pi * share(i)); });
+  return static_cast<double>(force.size()) * std::log(of_cosine / of_line);
 }
 
 }  // namespace
@@ -144,6 +164,21 @@ bool slips_are_sudden(const Segmentation& segmentation) {
   if (ratios.size() + 1 < thresholds::kFewestCycles || signal::median(ratios) < thresholds::kSudden) return false;
   const auto sudden = std::ranges::count_if(ratios, [](double ratio) { return ratio > 0.5 * thresholds::kSudden; });
   return static_cast<double>(sudden) >= thresholds::kSuddenShare * static_cast<double>(ratios.size());
+}
+
+bool rises_are_round(const Recording& recording, const Segmentation& segmentation) {
+  constexpr std::size_t kFewestSamples = 7;
+  std::size_t round = 0;
+  std::size_t straight = 0;
+  for (std::size_t i = 1; i < segmentation.slips.size(); ++i) {
+    const std::size_t begin = segmentation.slips[i - 1].trough;
+    const std::size_t end = segmentation.slips[i].peak + 1;
+    if (end < begin + kFewestSamples) continue;
+    const double evidence = evidence_of_line(recording, {begin, end});
+    straight += evidence > thresholds::kEvidence ? 1U : 0U;
+    round += evidence < -thresholds::kEvidence ? 1U : 0U;
+  }
+  return round >= thresholds::kFewestSlips && round > straight;
 }
 
 bool slips_stand_out(const Segmentation& segmentation) {

@@ -52,6 +52,11 @@ bool keeps_rhythm(const Segmentation& segmentation);
 /// Sudden falls after slow rises, in nearly all cycles: what makes stick-slip.
 bool slips_are_sudden(const Segmentation& segmentation);
 
+/// Returns true if the rises between slips are round rather than straight: more of them are followed by half a cosine
+/// than by a line. Each line and each cosine has its own two parameters, so that rises of any sizes and slopes count
+/// alike.
+bool rises_are_round(const Recording& recording, const Segmentation& segmentation);
+
 /// Falls well above the noise and quicker than a sine's: counting them gives the frequency of slips, not of noise or
 /// hum.
 bool slips_stand_out(const Segmentation& segmentation);
