@@ -9,6 +9,7 @@ import zlib
 import numpy as np
 
 import command_line
+import families_contacts
 import families_controls
 import families_inside
 import families_outside
@@ -23,9 +24,9 @@ def draw(description, families):
             rng = np.random.default_rng([seed, zlib.crc32(family.encode())])
             scene = named[family](rng)
             name = f"{family}-{seed}"
-            write_csv(arguments.out / f"{name}.csv", scene.time_s, scene.force, scene.displacement_m)
+            write_csv(arguments.out / f"{name}.csv", scene.time_s, scene.force, scene.displacement_m, scene.normal_N)
             truths.write(json.dumps({"id": name, "family": family, "file": f"{name}.csv", **scene.truth}) + "\n")
 
 
 if __name__ == "__main__":
-    draw(__doc__, families_inside.FAMILIES + families_outside.FAMILIES + families_controls.FAMILIES)
+    draw(__doc__, families_inside.FAMILIES + families_outside.FAMILIES + families_contacts.FAMILIES + families_controls.FAMILIES)

@@ -9,7 +9,7 @@ import numpy as np
 
 from simulator import SLIP, Model, Motion, simulate, simulate_lugre
 
-PARAMETERS = ("stiffness_N_per_m", "friction_difference_N", "natural_frequency_rad_per_s", "damping_ratio")
+PARAMETERS = ("stiffness_N_per_m", "friction_difference_N", "natural_frequency_rad_per_s", "damping_ratio", "mass_kg")
 
 
 @dataclasses.dataclass
@@ -64,6 +64,7 @@ class Scene:
     force: np.ndarray
     truth: dict
     displacement_m: np.ndarray = None
+    normal_N: np.ndarray = None
 
 
 def counted(slips, share=0.25):
@@ -76,7 +77,11 @@ def truth_of(rig, slips, stretch, known=PARAMETERS):
     inside = counted(slips[(slips["onset_s"] >= stretch[0]) & (slips["end_s"] <= stretch[1]) & (slips["end_s"] > 0)])
     onset = inside["onset_s"][1:] if len(inside) > 3 else inside["onset_s"]
     frequency = (len(onset) - 1) / (onset[-1] - onset[0]) if len(onset) > 2 else None
-    values = dict(zip(PARAMETERS, (rig.model.stiffness, rig.drop, rig.model.omega, rig.model.damping_ratio)))
+    model = rig.model
+    mass = model.stiffness / model.omega**2
+    values = dict(zip(PARAMETERS, (model.stiffness, rig.drop, model.omega, model.damping_ratio, mass)))
+    if model.relax_time > 0:
+        values["stiffness_N_per_m"] = [model.stiffness * (1 - model.relax_share - model.slow_share), model.stiffness]
     if rig.model.weakening_length > 0:
         values["slip_distance_m"], known = rig.model.weakening_length, (*known, "slip_distance_m")
     if rig.model.reload_length:

@@ -21,6 +21,9 @@ typedef struct {
   double ageing_law;                      /* 0 ln(1 + t/t_c), 1 power of t/t_c, 2 saturating */
   double relax_share, relax_time;         /* a standard linear solid: this share of the stiffness relaxes */
   double servo_compliance, servo_time;    /* m/N, s: the drive gives way under the force and catches up */
+  double slow_share, slow_time;           /* a second relaxing spring beside the first */
+  double heat_slope, heat_time;           /* N/m by which the distance slid lowers the kinetic friction; it cools so fast */
+  double load_slope;                      /* the load rises by this share of itself when the force doubles its kinetic level */
 } Model;
 
 /* What changes with time, one value a sample; static friction further takes a factor for each slip. */
@@ -32,7 +35,7 @@ typedef struct {
 } Course;
 
 typedef struct {
-  double force, velocity, slid, sensor, sensor_rate, since_slip, relaxing, behind;
+  double force, velocity, slid, sensor, sensor_rate, since_slip, relaxing, behind, slow, heat;
 } State;
 
 static double sign_of(double x) { return x < 0 ? -1.0 : 1.0; }
@@ -45,6 +48,11 @@ static double friction(const Model *m, double kinetic, double excess, double spe
   }
   if (m->weakening_length > 0 && slid < m->weakening_length) f += excess * (1.0 - slid / m->weakening_length);
   return f;
+}
+
+/* The normal force over its mean, where the deflection of the spring changes it. */
+static double load(const Model *m, double force, double kinetic) {
+  return m->load_slope != 0.0 ? 1.0 + m->load_slope * (fabs(force) - kinetic) / kinetic : 1.0;
 }
 
 static double aged(const Model *m, double stick_s) {
@@ -77,9 +85,11 @@ static State rate(const Model *m, const State *s, double commanded, double kinet
   d.behind = commanded - drive;
   if (sliding) {
     velocity = s->velocity;
-    const double f = direction * friction(m, kinetic, static_friction - kinetic, velocity, s->slid);
+    const double f = direction * load(m, s->force, kinetic) *
+                     (friction(m, kinetic, static_friction - kinetic, velocity, s->slid) - m->heat_slope * s->heat);
     d.velocity = (s->force + damper * (drive - velocity) - f) / mass;
     d.slid = fabs(velocity);
+    d.heat = fabs(velocity);
   } else {
     d.since_slip = fabs(drive);
     if (m->creep_force > 0) velocity = m->creep_share * drive * exp(-(static_friction - fabs(s->force)) / m->creep_force);
@@ -89,6 +99,11 @@ static State rate(const Model *m, const State *s, double commanded, double kinet
     d.force -= s->relaxing / m->relax_time;
     d.relaxing = m->relax_share * m->stiffness * (drive - velocity) - s->relaxing / m->relax_time;
   }
+  if (m->slow_time > 0) {
+    d.force -= s->slow / m->slow_time;
+    d.slow = m->slow_share * m->stiffness * (drive - velocity) - s->slow / m->slow_time;
+  }
+  if (m->heat_time > 0) d.heat -= s->heat / m->heat_time;
   if (m->sensor_omega > 0) {
     d.sensor = s->sensor_rate;
     d.sensor_rate = m->sensor_omega * m->sensor_omega * (s->force - s->sensor) -
@@ -186,7 +201,7 @@ long simulate(const Model *m, const Course *course, double start_force, double *
                kinetic * (1.0 - course->slip_factor[o.slips % course->factors]);
         o.fs += aged(m, o.stick_s);
         small_falls(m, &o);
-        if (fabs(o.state.force + damper * actual(m, &o.state, drive)) >= o.fs) begin_slip(m, &o, drive, now, slips);
+        if (fabs(o.state.force + damper * actual(m, &o.state, drive)) >= o.fs * load(m, o.state.force, kinetic)) begin_slip(m, &o, drive, now, slips);
       }
       const State before = o.state;
       o.state = stepped(m, before, h, drive, kinetic, o.fs, o.sliding, o.direction);
@@ -198,9 +213,10 @@ long simulate(const Model *m, const Course *course, double start_force, double *
       } else if (!o.sliding) {
         const double tension = fabs(before.force + damper * actual(m, &before, drive));
         const double next = fabs(o.state.force + damper * actual(m, &o.state, drive));
-        const double fs = o.fs + aged(m, o.stick_s + h) - aged(m, o.stick_s);
-        if (next >= fs && next > tension) { /* within this step: both are straight over it */
-          const double share = (o.fs - tension) / ((next - tension) - (fs - o.fs));
+        const double first = o.fs * load(m, before.force, kinetic);
+        const double last = (o.fs + aged(m, o.stick_s + h) - aged(m, o.stick_s)) * load(m, o.state.force, kinetic);
+        if (next >= last && next > tension) { /* within this step: both are straight over it */
+          const double share = (first - tension) / ((next - tension) - (last - first));
           o.state = stepped(m, before, share * h, drive, kinetic, o.fs, 0, o.direction);
           begin_slip(m, &o, drive, now + share * h, slips);
           o.state = stepped(m, o.state, (1.0 - share) * h, drive, kinetic, o.fs, 1, o.direction);

@@ -18,7 +18,7 @@ class Model(ctypes.Structure):
         "stiffness omega damping_ratio stribeck_force stribeck_speed quadratic weakening_length ageing ageing_time "
         "creep_force creep_share reload_force reload_length stiffening sensor_omega sensor_damping precursor_at "
         "precursor_share aftershock_s aftershock_share velocity_law ageing_law "
-        "relax_share relax_time servo_compliance servo_time").split()]
+        "relax_share relax_time servo_compliance servo_time slow_share slow_time heat_slope heat_time load_slope").split()]
 
 
 class Course(ctypes.Structure):
@@ -77,7 +77,11 @@ def simulate_lugre(k, omega, zeta, fs, fk, stribeck_speed, sigma0, sigma1, speed
     return force
 
 
-def write_csv(path, time_s, force, displacement_m=None):
+def write_csv(path, time_s, force, displacement_m=None, normal_N=None):
+    if normal_N is not None:
+        np.savetxt(path, np.c_[time_s, force, normal_N], fmt=("%.9g", "%.7g", "%.7g"), delimiter=",",
+                   header="time_s,force_N,normal_force_N", comments="")
+        return
     if displacement_m is not None:
         np.savetxt(path, np.c_[time_s, force, 1e3 * displacement_m], fmt=("%.9g", "%.7g", "%.9g"), delimiter=",",
                    header="time_s,force_N,displacement_mm", comments="")

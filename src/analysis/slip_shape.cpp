@@ -8,6 +8,7 @@
 
 #include "core/line_sums.hpp"
 #include "core/quantile.hpp"
+#include "core/sample_range.hpp"
 #include "core/slip_thresholds.hpp"
 #include "core/student.hpp"
 #include "core/thresholds.hpp"
