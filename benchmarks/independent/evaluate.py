@@ -6,7 +6,8 @@
 verdict: share of right kinds of motion. freq, space: of recordings that have one, the share quoted within 5 % of the truth
 (space: V / f), the share of intervals that hold the truth, and how many are absurd (off by a factor of 2 or more; any number
 where there is none). stretch: both ends within 1.5 periods, where part of the recording slides otherwise. k ... zeta: share of
-intervals that hold the truth, of those given; wrong: `identified` and off by more than twice the interval. extra: terms taken
+intervals that hold the truth, of those given; !!: surely wrong, that is `identified` and off by more than the width of the
+interval (4 standard errors) and 2 %. extra: terms taken
 (average T_b, D_c, rise A) that the scene does not have.
 """
 import collections
@@ -55,6 +56,16 @@ def stretch_found(document, truth):
     return int(all(abs(a - b) < 1.5 * period for a, b in zip(used, truth["stretch_s"])))
 
 
+def against_truth(estimate, expected, warned):
+    """`expected`: the lowest and the highest value that are right."""
+    low, high = estimate["ci95"]
+    value = estimate["value"]
+    off = 0.0 if value is None else max(expected[0] - value, value - expected[1], 0.0)
+    wrong = estimate["status"] == "identified" and off > max(high - low, 0.02 * expected[1])
+    return {"holds": int(low <= expected[1] and expected[0] <= high), "wrong": int(wrong), "silent": int(wrong and not warned),
+            "known": 1, "far": int(estimate["status"] == "identified" and off > 0.05 * expected[1])}
+
+
 def scored(document, truth):
     row = {"verdict": int(document["status"] in RIGHT[truth["kind"]])}
     frequency = dict(document.get("frequency") or {})
@@ -73,9 +84,7 @@ def scored(document, truth):
         elif expected is None:
             row["extra"] = row.get("extra", 0) + int(name in TERMS)
         else:
-            low, high = estimate["ci95"]
-            off = abs(estimate["value"] - expected) > (high - low) if estimate["value"] is not None else False
-            row[symbol] = {"holds": int(low <= expected <= high), "wrong": int(identified and off)}
+            row[symbol] = against_truth(estimate, expected if isinstance(expected, list) else [expected, expected], bool(document["warnings"]))
     if truth.get("changes"):
         codes = {warning["code"] for warning in document.get("warnings", [])}
         row["said"] = int("changes_on_the_way" in codes or "period_drifts" in codes)
@@ -102,6 +111,13 @@ def line(family, rows):
     return " ".join(cells)
 
 
+def summary(rows):
+    found = [row[symbol] for row in rows for symbol in SHORT.values() if row.get(symbol, {}).get("known")]
+    masses = [row["m"] for row in rows if row.get("m", {}).get("known")]
+    return (f"of {len(found)} knowable answers {sum(f['wrong'] for f in found)} surely wrong, {sum(f['silent'] for f in found)} of them without "
+            f"a warning; {sum(m['far'] for m in masses)} of {len(masses)} masses identified and off by more than 5 %")
+
+
 def describe(truth, document, row):
     quoted = (document.get("frequency") or {}).get("value_Hz")
     wrong = [symbol for symbol in SHORT.values() if row.get(symbol, {}).get("wrong")]
@@ -125,6 +141,7 @@ def main():
     for family, rows in families.items():
         print(line(family, rows))
     print(line("all", [row for rows in families.values() for row in rows]))
+    print(summary([row for rows in families.values() for row in rows]))
     if arguments.misses:
         print("\n".join(misses))
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from simulator import SLIP, Model, Motion, simulate, simulate_lugre
 
-PARAMETERS = ("stiffness_N_per_m", "friction_difference_N", "natural_frequency_rad_per_s", "damping_ratio", "mass_kg")
+PARAMETERS = ("stiffness_N_per_m", "friction_difference_N", "natural_frequency_rad_per_s", "damping_ratio")
 
 
 @dataclasses.dataclass
@@ -78,8 +78,8 @@ def truth_of(rig, slips, stretch, known=PARAMETERS):
     onset = inside["onset_s"][1:] if len(inside) > 3 else inside["onset_s"]
     frequency = (len(onset) - 1) / (onset[-1] - onset[0]) if len(onset) > 2 else None
     model = rig.model
-    mass = model.stiffness / model.omega**2
-    values = dict(zip(PARAMETERS, (model.stiffness, rig.drop, model.omega, model.damping_ratio, mass)))
+    values = dict(zip(PARAMETERS, (model.stiffness, rig.drop, model.omega, model.damping_ratio)))
+    values["mass_kg"] = model.stiffness / model.omega**2
     if model.relax_time > 0:
         values["stiffness_N_per_m"] = [model.stiffness * (1 - model.relax_share - model.slow_share), model.stiffness]
     if rig.model.weakening_length > 0:
@@ -87,6 +87,8 @@ def truth_of(rig, slips, stretch, known=PARAMETERS):
     if rig.model.reload_length:
         values["reload_force_N"], values["reload_length_m"] = rig.model.reload_force, rig.model.reload_length
         known = (*known, "reload_force_N", "reload_length_m")
+    if {"stiffness_N_per_m", "natural_frequency_rad_per_s"} <= set(known):
+        known = (*known, "mass_kg")
     return {"kind": "stick_slip", "speed_m_per_s": rig.speed, "frequency_Hz": frequency, "stretch_s": [float(s) for s in stretch],
             "spacing_m": rig.speed / frequency if frequency else None,
             "parameters": {name: values[name] for name in known}, "slips_s": [float(t) for t in onset]}

@@ -77,6 +77,7 @@ Detection detect_beyond(const Falls& falls, double hysteresis) {
 }
 
 constexpr double kSameCount = 1.05;     // ratio of two numbers of falls that are the same
+constexpr double kWave = 2.0;           // asymmetry up to which falls may be those of a wave on a ramp
 constexpr double kMostAsymmetry = 6.0;  // sampling and smoothing do not distinguish quicker falls than this
 
 /// A single fall has no rise to the next one: it counts where the force took its time to get there.
@@ -94,14 +95,30 @@ double score_of(const Detection& detection, double noise) {
   return stands_out * std::sqrt(static_cast<double>(detection.falls.size())) * sudden;
 }
 
+/// Falls that were seen, in numbers.
+struct Seen {
+  double drop = 0.0;
+  double count = 0.0;
+  bool is_sudden = false;
+
+  /// Sum of the squares of the drops, about.
+  [[nodiscard]] double variance() const { return count * drop * drop; }
+};
+
 /// The result at one time scale.
 struct Scale {
   Means trace;
   double noise = 0.0;
   Detection best{};
+  std::vector<Seen> seen{};  ///< at every hysteresis
 };
 
-Scale falls_at_scale(const Means& trace, double noise) {
+Seen seen_of(const Detection& detection) {
+  return {detection.drop, static_cast<double>(detection.falls.size()), detection.asymmetry > kWave};
+}
+
+/// `least_drop`: of falls, by the median.
+Scale falls_at_scale(const Means& trace, double noise, double least_drop) {
   Scale scale{trace, noise};
   const Falls all(trace, noise);
   if (!(all.range() > 0.0)) return scale;
@@ -114,7 +131,8 @@ Scale falls_at_scale(const Means& trace, double noise) {
     if (!is_new) continue;  // it would look the same
     is_first = false;
     Detection detection = detect_beyond(falls, hysteresis);
-    detection.score = score_of(detection, noise);
+    scale.seen.push_back(seen_of(detection));
+    detection.score = detection.drop < least_drop ? 0.0 : score_of(detection, noise);
     if (detection.score > scale.best.score) scale.best = std::move(detection);
   }
   // As small a hysteresis as the counted falls allow: it finds each fall's own turning points.
@@ -172,23 +190,47 @@ std::vector<double> widths_of(std::size_t samples) {
   return widths;
 }
 
-}  // namespace
-
-Events find_events(std::vector<double> force, double noise, std::optional<std::size_t> width) {
+/// Detects at every scale; falls have to be of `least_drop`.
+std::vector<Scale> falls_at_scales(const std::vector<double>& force, const RunningMeans& means, double noise,
+                                   const std::vector<double>& widths, double least_drop) {
   constexpr std::size_t kLarge = 200000;  // samples from which a second thread is worth its start
-  const RunningMeans means(force);
-  const std::vector<double> widths = width ? std::vector{static_cast<double>(*width)} : widths_of(force.size());
   const auto at_width = [&](std::size_t i) {
     const auto samples = static_cast<std::size_t>(std::lround(widths[i]));
     const Means trace(force, means, samples, std::max<std::size_t>(1, samples / 3));
     const double left = std::max(noise / std::sqrt(widths[i]), samples == 1 ? 0.0 : noise_of(trace));
-    return falls_at_scale(trace, left);
+    return falls_at_scale(trace, left, least_drop);
   };
-  const std::size_t threads = force.size() < kLarge ? 1 : widths.size();
-  const std::vector<Scale> scales = in_parallel(widths.size(), at_width, threads);
-  std::size_t best = 0;
-  for (std::size_t i = 0; i < scales.size(); ++i) {
-    if (scales[i].best.score > scales[best].best.score) best = i;
+  return in_parallel(widths.size(), at_width, force.size() < kLarge ? 1 : widths.size());
+}
+
+std::size_t best_of(const std::vector<Scale>& scales) {
+  const auto score = [](const Scale& scale) { return scale.best.score; };
+  return static_cast<std::size_t>(std::ranges::max_element(scales, {}, score) - scales.begin());
+}
+
+/// Returns true if sudden falls were seen to which these are noise, and which move the force more. Noise behind a
+/// filter is as smooth as slips, and it has more falls.
+bool are_noise(const Detection& falls, const std::vector<Scale>& scales) {
+  const Seen these = seen_of(falls);
+  return std::ranges::any_of(scales, [&](const Scale& scale) {
+    return std::ranges::any_of(scale.seen, [&](const Seen& others) {
+      return others.is_sudden && others.count >= thresholds::kFewestCycles &&
+             others.drop > thresholds::kNoiseSigmas * these.drop && others.variance() > these.variance();
+    });
+  });
+}
+
+}  // namespace
+
+Events find_events(std::vector<double> force, double noise, std::optional<std::size_t> width) {
+  const RunningMeans means(force);
+  const std::vector<double> widths = width ? std::vector{static_cast<double>(*width)} : widths_of(force.size());
+  std::vector<Scale> scales = falls_at_scales(force, means, noise, widths, 0.0);
+  std::size_t best = best_of(scales);
+  for (double least_drop = 0.0; are_noise(scales[best].best, scales);) {
+    least_drop = std::max(2.0 * least_drop, thresholds::kNoiseSigmas * scales[best].best.drop);
+    scales = falls_at_scales(force, means, noise, widths, least_drop);
+    best = best_of(scales);
   }
   std::size_t chosen = 0;
   while (chosen < best && !shows_the_same(scales[chosen].best, scales[best].best)) ++chosen;

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "signal/stretch.hpp"
 #include "slipfit/signal/cycles.hpp"
@@ -131,4 +132,22 @@ TEST_CASE("slips on the scale of the whole are those that a part shows by itself
   for (std::size_t i = 0; i < told.slips.size(); ++i) {
     CHECK(told.slips[i].middle_s == Approx(searched.slips[i].middle_s).margin(0.005));
   }
+}
+
+TEST_CASE("noise as smooth as that behind a filter makes no slips on the slopes of the sticks") {
+  const int samples = GENERATE(4, 8, 16);
+  CAPTURE(samples);
+  traces::Generator generator(3);
+  Scene scene = saw(generator);
+  traces::add_noise(scene.force, 0.05, generator);
+  for (int pass = 0; pass < 4; ++pass) {  // four means in a row fall off as a filter of fourth order does
+    std::vector<double> filtered = scene.force;
+    for (std::size_t i = 0; i + samples <= filtered.size(); ++i) {
+      filtered[i] = std::accumulate(scene.force.begin() + i, scene.force.begin() + i + samples, 0.0) / samples;
+    }
+    scene.force = filtered;
+  }
+  const Segmentation found = scene.slips();
+  CHECK(found.slips.size() >= 39);
+  CHECK(found.slips.size() <= 41);
 }
