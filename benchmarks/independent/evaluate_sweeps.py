@@ -8,7 +8,7 @@ bands: spacings at 2 and 4 times the fastest recording inside their 95 % interva
 without any warning of the fit. V_c: inside its interval, of those with one; bracket: told as a bracket or a bound that holds, of
 those told so. fit: sweeps that could be predicted from. warned: with any warning. named: warnings `recording_disagrees` that name
 the wrong recording, of the sweeps that have one; alarm: that name one where none is wrong. se: median relative standard error of k
-and half-width of F_s - F_k. k, w_n, zeta, dF, m: inside its interval, of the sweeps that call it identified; B, t_c (rate and cut-off of ageing): of all that give one. audit: pairs of the recordings' audits that contradict
+and half-width of F_s - F_k. k, w_n, zeta, dF, m: inside its interval, of the sweeps that call it identified or conditional; B, t_c (rate and cut-off of ageing): of all that give one. audit: pairs of the recordings' audits that contradict
 themselves, of all.
 """
 import collections
@@ -84,7 +84,7 @@ def scored(result, truth):
     parameters = fit.get("parameters") or {}
     for name, true in truth["parameters"].items():
         p = parameters.get(name) or {}
-        if p.get("status") == "identified" or (name in AGEING and p.get("ci95")):
+        if p.get("status") in ("identified", "conditional") or (name in AGEING and p.get("ci95")):
             row["identified " + name] = 1
             least, most = true if isinstance(true, list) else (true, true)
             row["held " + name] = int(p["ci95"][0] <= most and least <= p["ci95"][1])

@@ -325,6 +325,23 @@ def undersampled(rng):
     return sweep
 
 
+def flash(rng):
+    """The heat of the slip lowers the kinetic friction by 10 to 50 % of F_s - F_k, and leaves within the stick."""
+    def bend(model, drop, kinetic, speeds):
+        model.heat_slope = rng.uniform(0.1, 0.5) * drop / (2 * drop / model.stiffness)
+        model.heat_time = np.pi / model.omega * rng.uniform(0.5, 2)
+        return drop, kinetic
+    return draw(rng, 4, rng.uniform(4, 8), bend)
+
+
+def depth(rng):
+    """The bending of the holder changes the load as it changes the force."""
+    def bend(model, drop, kinetic, speeds):
+        model.load_slope = rng.choice([-1, 1]) * rng.uniform(0.03, 0.2)
+        return drop, kinetic
+    return draw(rng, 4, rng.uniform(4, 8), bend)
+
+
 def near_critical(rng):
     """The fastest recordings stand near the end of stick-slip and beyond it."""
     sweep = draw(rng, 6, rng.uniform(20, 40), zeta=(0.1, 0.3), fastest=(1.0, 2.5))
@@ -448,4 +465,4 @@ def parameters_of(sweep, sound):
 
 FAMILIES = [coulomb5, coulomb3, exponential, exponential_strong, age_ln3, age_ln4, age_ln6, age_cutoff, age_wide, age_terms, age_power, age_saturating, age_exponential, log_falling,
             log_rising, hyperbolic, two, two_coulomb, narrow, trended, grown, grown_loosely, loose, averaging, rings, rings_otherwise, drifting, zeros, wrong_loads,
-            adhesion, undersampled, near_critical, relaxing, bad_speed, bad_unit, other_material, one_file_twice, swapped, level_only]
+            adhesion, undersampled, near_critical, relaxing, flash, depth, bad_speed, bad_unit, other_material, one_file_twice, swapped, level_only]

@@ -124,6 +124,7 @@ class Assembler {
     if (data_.motion) findings.held[fit::kLogFrequency] = findings.held[fit::kDamping] = false;
     findings.cycles = solution.cycles();
     findings.mass_gives_frequency = data_.mass.has_value();
+    findings.frequency_tested = data_.motion.has_value();
     findings.samples_per_slip = samples_per_slip(recordings_, data_);
     findings.sample_interval_s = recordings_[data_.fitted.front()].recording.sample_interval_s();
     if (fit::residual_over_noise(recordings_, data_, solution) > thresholds::kLargeChi2) {

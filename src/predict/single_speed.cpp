@@ -15,6 +15,8 @@ ModelEstimate from_single_speed(ModelEstimate model, double speed_m_per_s,
     if (statuses[i] == ParameterStatus::Identified || statuses[i] == ParameterStatus::Fixed) continue;
     const ParameterId id = kModelParameters[i];
     const bool is_conditional = statuses[i] == ParameterStatus::Conditional;
+    // What else acts as a spring within a slip does so at other speeds, too.
+    if (is_conditional && id == ParameterId::NaturalFrequency) continue;
     const double relative = is_conditional ? info(id).identified_below : thresholds::kWeakError;
     const double scale = id == ParameterId::DampingRatio ? model.damping_ratio : 1.0;  // the others by their logarithms
     single.least_errors[i] = scale * relative;

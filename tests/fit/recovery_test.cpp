@@ -10,13 +10,13 @@ using namespace slipfit;
 
 namespace {
 
-void check_recovery(const Scene& s) {
+void check_recovery(const Scene& s, ParameterStatus of_frequency = ParameterStatus::Conditional) {
   const Analysis analysis = analyze_and_fit(record(s));
   INFO(analysis.motion_reason);
   REQUIRE(analysis.motion == MotionClass::StickSlip);
   check_truth(analysis, s);
   CHECK(parameter(analysis, "stiffness_N_per_m").status == ParameterStatus::Identified);
-  CHECK(parameter(analysis, "natural_frequency_rad_per_s").status == ParameterStatus::Identified);
+  CHECK(parameter(analysis, "natural_frequency_rad_per_s").status == of_frequency);
 }
 
 }  // namespace
@@ -61,15 +61,15 @@ TEST_CASE("a sensor at the contact: jumps and plateaus give all four parameters"
   Scene s{.noise = 0.01, .view = ForceView::Contact};
   SECTION("regular, not in step with the clock") {
     s.samples_per_slip = 31.7;
-    check_recovery(s);
+    check_recovery(s, ParameterStatus::Identified);  // the plateaus show the friction of the slips
   }
   SECTION("scattering static friction") {
     s.jitter = 0.08;
-    check_recovery(s);
+    check_recovery(s, ParameterStatus::Identified);  // the plateaus show the friction of the slips
   }
   SECTION("drift of twice the drop") {
     s.drift_over_drop = 2.0;
-    check_recovery(s);
+    check_recovery(s, ParameterStatus::Identified);  // the plateaus show the friction of the slips
   }
 }
 

@@ -94,6 +94,7 @@ Findings findings_of(const Recording& recording, const ContactCycles& found, con
   findings.in_newtons = conditions.quantity == ForceQuantity::Force_N;
   findings.zero_known = conditions.zero_force_N.has_value();
   findings.cycles = found.cycles.size();
+  findings.frequency_tested = true;  // the plateaus show the friction within the slips
   findings.samples_per_slip = samples_per_slip(found, moments);
   findings.sample_interval_s = found.step_s;
   return findings;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "fit/inference/ageing_line.hpp"
+#include "fit/inference/load_response.hpp"
 #include "fit/inference/sliding_model.hpp"
 #include "fit/report/notes.hpp"
 #include "slipfit/core/recording.hpp"
@@ -63,7 +64,9 @@ struct Findings {
   std::optional<LawFindings> law{};
   bool weakens = false;                 ///< friction falls over a slip distance, in the model
   std::string slip_distance_unknown{};  ///< why D_c was asked for in vain; empty: it was not
-  bool mass_gives_frequency = false;    ///< w_n is held at sqrt(k / m) of the stated mass, whose error the spread holds
+  bool frequency_tested = false;        ///< the slips' w_n agrees with a ring-down or a stated mass
+  std::optional<LoadResponse> load_response{};
+  bool mass_gives_frequency = false;  ///< w_n is held at sqrt(k / m) of the stated mass, whose error the spread holds
   Warnings warnings{};
 
   /// Returns the intervals of F_k(0+) and F_s - F_k(0+), which depend on the law below the speeds that were measured.

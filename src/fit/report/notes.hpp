@@ -23,6 +23,16 @@ inline constexpr const char* kZeroUnknown =
 inline constexpr const char* kOneSpeed =
     "assumes kinetic friction that does not depend on sliding speed; one driving speed cannot test this: fit a sweep";
 
+/// States why w_n and mass that are read from the slips alone are conditional. docs/model.md, section 16.
+inline constexpr const char* kSlipsAlone =
+    "assumes friction and a load that stay the same within a slip (a fall by half of F_s - F_k would make w_n 15 % "
+    "higher): --mass tests this";
+/// The condition itself.
+inline constexpr const char* kSameWithinSlip = "friction and a load that stay the same within a slip (w_n and m)";
+/// The same where the measured normal force changes within it.
+inline constexpr const char* kLoadFollows =
+    "the measured normal force follows the force, and friction with it: m includes this, w_n is that of the slips";
+
 /// States the source of w_n and mass that are not read from the slips.
 inline constexpr const char* kRingDown = "the free ring-down, which was used as data for w_n and zeta";
 inline constexpr const char* kStatedMass = "from the stated mass, because sensor averaging hides w_n";

@@ -172,9 +172,19 @@ class Reporter {
     } else if (f_.held[kLogFrequency]) {
       add_held(Id::NaturalFrequency, model_.omega.a);
     } else {
-      add_graded(Id::NaturalFrequency, omega, frequency_doubt(), or_few_cycles(frequency_doubt()));
+      add_of_slips(Id::NaturalFrequency, omega, frequency_doubt());
     }
     if (f_.in_newtons) report_mass();
+  }
+
+  /// Adds w_n or m, which the slips show only where nothing but the spring changes along them.
+  void add_of_slips(Id id, const Estimate& estimate, const std::string& doubt) {
+    const ParameterStatus status = graded(id, estimate, doubt);
+    if (status != ParameterStatus::Identified || f_.frequency_tested) {
+      return add(id, estimate, status, or_few_cycles(doubt));
+    }
+    if (id == Id::NaturalFrequency) result_.conditional_on.emplace_back(kSameWithinSlip);
+    add(id, estimate, ParameterStatus::Conditional, f_.load_response ? kLoadFollows : kSlipsAlone);
   }
 
   [[nodiscard]] std::string frequency_doubt() const { return slip_doubt().empty() ? f_.frequency_doubt : slip_doubt(); }
@@ -186,16 +196,19 @@ class Reporter {
     return status == ParameterStatus::Identified && is_one ? ParameterStatus::Conditional : status;
   }
 
-  /// m = k / w_n^2
   void report_mass() {
-    const Jet m = model_.stiffness / (model_.omega * model_.omega);
+    // m = k / w_n^2; friction that follows the force takes its share of what accelerates. docs/model.md (31)
+    const Jet m =
+        (1.0 - f_.load_response.value_or(LoadResponse{}).share) * model_.stiffness / (model_.omega * model_.omega);
     if (f_.held[kLogStiffness] && f_.held[kLogFrequency]) return add_held(Id::Mass, m.a);
     if (f_.mass_gives_frequency) {
       return add(Id::Mass, f_.intervals.interval_of_one_sign(m), ParameterStatus::Conditional, kStatedMass);
     }
     const std::string doubt = frequency_doubt().empty() ? f_.stiffness_doubt : frequency_doubt();
-    const Estimate estimate = f_.intervals.interval_of_one_sign(m);
-    if (!model_.reload) return add_graded(Id::Mass, estimate, doubt, doubt);
+    Estimate estimate = f_.intervals.interval_of_one_sign(m);
+    if (f_.load_response)
+      estimate = widened(estimate, f_.load_response->standard_error / (1.0 - f_.load_response->share));
+    if (!model_.reload) return add_of_slips(Id::Mass, estimate, doubt);
     const Jet by_relaxation = instantaneous_stiffness(*model_.reload) / (model_.omega * model_.omega);
     const Estimate other = f_.intervals.interval_of_one_sign(by_relaxation);
     const std::string why = doubt.empty() ? kRiseOfTimeOrDistance : doubt;
@@ -210,6 +223,16 @@ class Reporter {
     const Jet in_slip = 0.5 * std::numbers::pi * f_.units.speed_m_per_s / model_.omega / reload.length_m;
     const Jet regained = reload.force_N * (1.0 - exp(-path_m / reload.length_m)) / path_m;
     return model_.stiffness + regained * exp(in_slip.a < kMost ? in_slip : Jet(kMost));
+  }
+
+  /// Adds an independent relative error to a positive estimate.
+  static Estimate widened(Estimate estimate, double relative) {
+    const double before = *estimate.standard_error / *estimate.value;
+    const double after = std::hypot(before, relative);
+    const auto moved = [&](double end) { return *estimate.value * std::pow(end / *estimate.value, after / before); };
+    estimate.ci95 = Interval{moved(estimate.ci95->low), moved(estimate.ci95->high)};
+    estimate.standard_error = *estimate.value * after;
+    return estimate;
   }
 
   /// Between two positive values of which either may be right.

@@ -238,6 +238,10 @@ void state_doubts(const Conditions& conditions, const TierFits& fits, const Reso
   }
 }
 
+bool agrees_with_stated_mass(const Conditions& conditions, const DampedFit& fit) {
+  return conditions.mass_kg && std::abs(sigmas_of_stated_mass(conditions, fit)) < thresholds::kClearSigmas;
+}
+
 std::optional<Estimate> fitted_average_of(const DampedFit& fit) {
   if (!fit.average) return std::nullopt;
   return symmetric(fit.average->seconds, fit.average->standard_error_s, fit.uncertainty.degrees_of_freedom);
@@ -297,6 +301,8 @@ Findings findings_of(const Recording& recording, const TierFits& fits, const Res
   findings.warnings.insert(findings.warnings.end(), averaging.warnings.begin(), averaging.warnings.end());
   state_trend(trend, recording.conditions(), findings);
   state_law(fits.damped, findings);
+  findings.frequency_tested = fits.damped.motion || agrees_with_stated_mass(recording.conditions(), fits.damped);
+  findings.load_response = load_response(recording, SlidingModel(values, findings.units).level.a, findings.cycles);
   state_doubts(recording.conditions(), fits, resolution, residual, findings);
   return findings;
 }
