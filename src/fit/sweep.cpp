@@ -159,11 +159,7 @@ class Assembler {
       findings.slip_doubt = fit::kFittedAverage;
       findings.warnings.push_back(fit::averaged_warning(average->seconds));
     }
-    if (!(averaging_ > thresholds::kNegligible)) return;
-    if (!data_.rounding_s2) {
-      findings.frequency_doubt = fit::averaging_doubt(averaging_);
-      return;
-    }
+    if (!(averaging_ > thresholds::kNegligible) || !data_.rounding_s2) return;
     findings.slip_doubt = "the slips are rounded as by sensor averaging over a time that the data do not determine";
     findings.warnings.push_back(
         {"samples_averaged", findings.slip_doubt + ": state it with --sensor-average if it is known"});

@@ -52,8 +52,6 @@ struct Findings {
   std::string stiffness_note{};
   std::string level_doubt{};  ///< why absolute forces depend on the part of the recording; empty: they do not
   LevelTrend level_trend{};
-  /// States why w_n, and m with it, is not identified, whatever its interval; empty: no reason.
-  std::string frequency_doubt{};
   std::string frequency_unknown{};  ///< why there is no natural frequency to read from the slips; empty: there is
   std::optional<double> sensor_average_s{};     ///< stated, in the model
   std::optional<Estimate> fitted_average{};     ///< s, found by the fit

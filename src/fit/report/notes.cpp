@@ -15,21 +15,6 @@ Warning averaged_warning(double average_s) {
                       1e3 * average_s)};
 }
 
-std::string averaging_doubt(double change) {
-  return fmt::format(
-      "sensor averaging over one sample interval would change w_n by {:.1f} %; state the averaging time with "
-      "--sensor-average (0: none), or sample faster",
-      100.0 * change);
-}
-
-std::string unexcluded_average(double average_s, double change) {
-  return fmt::format(
-      "the data do not exclude sensor averaging over {:.2g} ms, which would change w_n by {:.1f} %; state the "
-      "averaging "
-      "time with --sensor-average (0: none)",
-      1e3 * average_s, 100.0 * change);
-}
-
 Warning ripple_warning(const StickRipple& ripple) {
   if (ripple.speed_share > 1.0) {
     return {"suspicious_line",

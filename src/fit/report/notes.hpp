@@ -45,11 +45,6 @@ inline constexpr const char* kRiseOfTimeOrDistance =
 /// Warns that an average of the samples is fitted.
 Warning averaged_warning(double average_s);
 
-/// Returns why w_n is not identified where averaging over a step of the clock would change it by so much of itself.
-std::string averaging_doubt(double change);
-/// The same of an average that the slips may hide.
-std::string unexcluded_average(double average_s, double change);
-
 /// Warns that a line swings in the sticks. It is of the drive, unless that would have to turn back.
 Warning ripple_warning(const StickRipple& ripple);
 

@@ -172,7 +172,7 @@ class Reporter {
     } else if (f_.held[kLogFrequency]) {
       add_held(Id::NaturalFrequency, model_.omega.a);
     } else {
-      add_of_slips(Id::NaturalFrequency, omega, frequency_doubt());
+      add_of_slips(Id::NaturalFrequency, omega, slip_doubt());
     }
     if (f_.in_newtons) report_mass();
   }
@@ -186,8 +186,6 @@ class Reporter {
     if (id == Id::NaturalFrequency) result_.conditional_on.emplace_back(kSameWithinSlip);
     add(id, estimate, ParameterStatus::Conditional, f_.load_response ? kLoadFollows : kSlipsAlone);
   }
-
-  [[nodiscard]] std::string frequency_doubt() const { return slip_doubt().empty() ? f_.frequency_doubt : slip_doubt(); }
 
   /// Returns the status of F_s - F_k or zeta, which one speed cannot distinguish from friction that depends on the
   /// speed.
@@ -204,7 +202,7 @@ class Reporter {
     if (f_.mass_gives_frequency) {
       return add(Id::Mass, f_.intervals.interval_of_one_sign(m), ParameterStatus::Conditional, kStatedMass);
     }
-    const std::string doubt = frequency_doubt().empty() ? f_.stiffness_doubt : frequency_doubt();
+    const std::string doubt = slip_doubt().empty() ? f_.stiffness_doubt : slip_doubt();
     Estimate estimate = f_.intervals.interval_of_one_sign(m);
     if (f_.load_response)
       estimate = widened(estimate, f_.load_response->standard_error / (1.0 - f_.load_response->share));

@@ -84,8 +84,7 @@ Spread spread_of(const DampedFit& fit) {
 /// Holds what averaging in the instrument may have changed if its duration is not stated.
 struct AveragingFindings {
   Coordinates one_sided = Coordinates::Zero();
-  std::string doubt;        ///< of all that is read from the slip
-  std::string small_doubt;  ///< of w_n and m only
+  std::string doubt;  ///< of all that is read from the slip
   Warnings warnings;
 };
 
@@ -104,10 +103,7 @@ AveragingFindings averaging_of(const Recording& recording, const DampedFit& fit,
       &blocks == &fit.blocks ? fit.rounding : estimate_smoothing(blocks, fit.held, step_s);
   if (!seen) return result;
   const bool rounded = !repeats_rounding(fit) && seen->exceeds_step(step_s);
-  const double variance_s2 = unstated_variance_s2(fit, *seen, step_s);
-  const bool is_seen = variance_s2 > step_s * step_s / 12.0;
-  result.one_sided = variance_s2 * seen->move_per_s2;
-  const double change = std::abs(result.one_sided(kLogFrequency));
+  result.one_sided = unstated_variance_s2(fit, *seen, step_s) * seen->move_per_s2;
   if (rounded) {
     const double average_s = std::sqrt(12.0 * seen->variance_s2);
     result.doubt = fmt::format("the slips are rounded as by sensor averaging over {:.2g} ms", 1e3 * average_s);
@@ -115,8 +111,6 @@ AveragingFindings averaging_of(const Recording& recording, const DampedFit& fit,
         {"samples_averaged",
          result.doubt + " or by friction that changes during the slip; intervals include this. State the averaging "
                         "time with --sensor-average if it is known"});
-  } else if (change > thresholds::kNegligible) {
-    result.small_doubt = is_seen ? unexcluded_average(std::sqrt(12.0 * variance_s2), change) : averaging_doubt(change);
   }
   return result;
 }
@@ -293,7 +287,6 @@ Findings findings_of(const Recording& recording, const TierFits& fits, const Res
   findings.stiffness_doubt = std::move(stiffness.doubt);
   findings.warnings = std::move(stiffness.warnings);
   findings.fitted_average = fitted_average_of(fits.damped);
-  findings.frequency_doubt = std::move(averaging.small_doubt);
   // Bent sticks begin and end in other slips than the model's.
   findings.slip_doubt = !averaging.doubt.empty()    ? averaging.doubt
                         : findings.warnings.empty() ? ""
