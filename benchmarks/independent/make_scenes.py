@@ -11,6 +11,7 @@ import numpy as np
 import command_line
 import families_contacts
 import families_controls
+import families_exports
 import families_inside
 import families_outside
 from simulator import write_csv
@@ -29,4 +30,5 @@ def draw(description, families):
 
 
 if __name__ == "__main__":
-    draw(__doc__, families_inside.FAMILIES + families_outside.FAMILIES + families_contacts.FAMILIES + families_controls.FAMILIES)
+    draw(__doc__, families_inside.FAMILIES + families_outside.FAMILIES + families_contacts.FAMILIES + families_exports.FAMILIES +
+         families_controls.FAMILIES)

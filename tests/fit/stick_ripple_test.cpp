@@ -49,4 +49,20 @@ TEST_CASE("a drive that runs unevenly is said, and its line is fitted with the c
   CHECK(parameter(analysis, "natural_frequency_rad_per_s").status != ParameterStatus::Identified);
 }
 
+TEST_CASE("sticks that flatten at both ends are curved, though their halves are alike") {
+  const Scene s{.jitter = 0.02, .noise = 0.01};
+  const Recording straight = record(s);
+  const double difference = s.static_N - s.kinetic_N;
+  std::vector<double> force;
+  for (const double f : straight.force()) {
+    const double u = (f - s.kinetic_N) / difference;
+    force.push_back(f - 0.05 * difference * std::pow(u, 5));  // the slope falls by a quarter towards either end
+  }
+  const Recording bent =
+      Recording::create({straight.time_s().begin(), straight.time_s().end()}, force, straight.conditions()).value();
+  const Parameter& k = parameter(analyze_and_fit(bent), "stiffness_N_per_m");
+  CHECK(k.status != ParameterStatus::Identified);
+  CHECK_THAT(k.estimate.note, Catch::Contains("over their second half"));
+}
+
 }  // namespace slipfit

@@ -43,19 +43,38 @@ std::optional<StickRipple> ripple_of(const DampedFit& fit) {
   return fit.ripple && fit.ripple->speed_share > thresholds::kRippleShare ? fit.ripple : fitted_ripple(fit.blocks);
 }
 
+/// A bend of the ramps, what k may be off by because of it, and where it is.
+struct Bend {
+  double log_ratio = 0.0;
+  double error = 0.0;
+  const char* where = "";
+};
+
+/// Returns the bend that moves k most; the result is empty where none is clear. k depends on the stretch that is used,
+/// by half of what its halves differ. Creep and a rise after slips hide each other, where all of it counts.
+std::optional<Bend> bend_of(const BlockFit& blocks) {
+  std::optional<Bend> largest;
+  const auto add = [&](const std::optional<RampBend>& seen, double share, const char* where) {
+    if (!seen || !(std::abs(seen->log_ratio) > thresholds::kClearSigmas * seen->standard_error)) return;
+    const Bend bend{seen->log_ratio, share * std::abs(seen->log_ratio), where};
+    if (!largest || bend.error > largest->error) largest = bend;
+  };
+  add(ramp_bend(blocks), 0.5, "from start to end");
+  add(late_bend(blocks), blocks.level().reloading ? 1.0 : 0.5, "over their second half");
+  return largest;
+}
+
 StiffnessFindings stiffness_of(const Recording& recording, const TierFits& fits) {
   StiffnessFindings result;
   if (fits.damped.held[kLogStiffness]) return result;
   const BlockFit& blocks = reported(fits);
   const Conditions& conditions = recording.conditions();
-  // Ramps that bend (creep before a slip, a tightening line) have no one slope: k depends on the stretch that is used,
-  // by half of what the halves of the ramps differ.
-  const std::optional<RampBend> bend = ramp_bend(blocks);
-  if (bend && std::abs(bend->log_ratio) > thresholds::kClearSigmas * bend->standard_error) {
-    result.variance += std::pow(0.5 * bend->log_ratio, 2);
-    result.note = fmt::format(
-        "the sticks are curved: their slope {} by {:.1f} % from start to end; the interval of k includes this",
-        bend->log_ratio > 0.0 ? "decreases" : "increases", 100.0 * std::abs(bend->log_ratio));
+  // Ramps that bend (creep before a slip, a tightening line) have no one slope.
+  if (const std::optional<Bend> bend = bend_of(blocks)) {
+    result.variance += bend->error * bend->error;
+    result.note =
+        fmt::format("the sticks are curved: their slope {} by {:.1f} % {}; the interval of k includes this",
+                    bend->log_ratio > 0.0 ? "decreases" : "increases", 100.0 * std::abs(bend->log_ratio), bend->where);
     result.warnings.push_back({"model_misfit", result.note});
     if (std::abs(bend->log_ratio) > thresholds::kNegligible) result.doubt = result.note;
   }

@@ -65,18 +65,21 @@ double level_slope(const BlockFit& fit, std::size_t cycle, double time_s) {
   return (level(time_s + step_s) - level(time_s - step_s)) / (2.0 * step_s);
 }
 
-}  // namespace
+/// Two parts of a stick, the earlier first, without hum and without the rise after a slip.
+struct Parts {
+  StickBin early;
+  StickBin late;
+};
 
-std::optional<RampBend> ramp_bend(const BlockFit& fit) {
-  // Each cycle's difference of slopes, weighted by what its halves know: slopes have the variance noise^2 /
-  // time_spread.
+/// Each cycle's difference of slopes, weighted by what its parts know: slopes have the variance noise^2 / time_spread.
+template <class PartsOf>
+std::optional<RampBend> bend_between(const BlockFit& fit, const PartsOf& parts_of) {
   double weights = 0.0;
   double difference = 0.0;
   double slope = 0.0;
   std::vector<std::pair<double, double>> cycles;
   for (std::size_t i = 0; i < fit.size(); ++i) {
-    StickBin late = merge(straightened(fit.data(i).bins_before, fit, i));
-    StickBin early = merge(straightened(fit.data(i).bins_after, fit, i));
+    auto [early, late] = parts_of(i);
     if (late.count < 3.0 || early.count < 3.0) continue;
     late.slope -= level_slope(fit, i, late.time_s);
     early.slope -= level_slope(fit, i, early.time_s);
@@ -92,6 +95,23 @@ std::optional<RampBend> ramp_bend(const BlockFit& fit) {
   double variance = 0.0;
   for (const auto& [weight, value] : cycles) variance += weight * weight * (value - difference) * (value - difference);
   return RampBend{difference / slope, std::sqrt(variance) / weights / slope};
+}
+
+}  // namespace
+
+std::optional<RampBend> ramp_bend(const BlockFit& fit) {
+  return bend_between(fit, [&](std::size_t i) {
+    return Parts{merge(straightened(fit.data(i).bins_after, fit, i)),
+                 merge(straightened(fit.data(i).bins_before, fit, i))};
+  });
+}
+
+std::optional<RampBend> late_bend(const BlockFit& fit) {
+  return bend_between(fit, [&](std::size_t i) {
+    const std::vector<StickBin> bins = straightened(fit.data(i).bins_before, fit, i);
+    const auto middle = bins.begin() + std::ssize(bins) / 2;
+    return Parts{merge({bins.begin(), middle}), merge({middle, bins.end()})};
+  });
 }
 
 std::vector<double> level_offsets(const BlockFit& fit) {

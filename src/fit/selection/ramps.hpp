@@ -15,6 +15,8 @@ struct RampBend {
   double standard_error = 0.0;
 };
 std::optional<RampBend> ramp_bend(const BlockFit& fit);
+/// The same within the second half of the ramps, which creep before a slip bends.
+std::optional<RampBend> late_bend(const BlockFit& fit);
 
 /// Returns for every cycle the mean of its sticks, before and after the slip, above the model: how its level differs
 /// from the fitted one.
