@@ -102,7 +102,7 @@ std::vector<slipfit::ManifestEntry> entries_of(const slipfit::ManifestDraft& dra
     if (drafted.step) entry.options.step = drafted.step;
     if (drafted.sheet) entry.options.sheet = drafted.sheet;
     if (drafted.variable) entry.options.variable = drafted.variable;
-    if (!(entry.conditions.speed_m_per_s > 0.0)) refuse_without_speed(drafted);
+    if (!(entry.conditions.speed_m_per_s > 0.0) && !arguments.speed_is_optional) refuse_without_speed(drafted);
     entries.push_back(std::move(entry));
   }
   return entries;

@@ -56,7 +56,9 @@ slipfit::ManifestEntry entry_at(const RecordingArguments& arguments, const std::
   if (speed) cells.push_back({"speed", *speed, "--speed"});
   auto entry = slipfit::entry_from_cells(std::move(cells));
   if (!entry) throw Failure(ExitCode::WrongUsage, entry.error().message);
-  return std::move(entry).value();
+  slipfit::ManifestEntry taken = std::move(entry).value();
+  taken.conditions.speed_is_known = !arguments.speed_is_optional;
+  return taken;
 }
 
 slipfit::ManifestEntry entry_from(const RecordingArguments& arguments) {

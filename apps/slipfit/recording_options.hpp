@@ -14,6 +14,7 @@ struct RecordingArguments {
   std::vector<std::string> files;
   std::vector<std::string> speeds;          ///< one, or one for each recording
   std::map<std::string, std::string> said;  ///< as typed, by the column of a manifest; empty: not given
+  bool speed_is_optional = false;
 };
 
 /// Adds the options of a recording that are wanted.

@@ -20,7 +20,8 @@ bool no_repetition(const SpectralFrequency& spectral) {
 
 /// Falls that come once in the stated path of the drive, or a whole number of times.
 bool follows_drive_path(const Conditions& conditions, const Segmentation& segmentation) {
-  if (!conditions.drive_path_m || segmentation.slips.size() < thresholds::kFewestSlips) return false;
+  if (!conditions.drive_path_m || !conditions.speed_is_known || segmentation.slips.size() < thresholds::kFewestSlips)
+    return false;
   const MeanAndSpread interval = describe(slip_intervals_s(segmentation));
   const double paths = interval.mean * conditions.speed_m_per_s / *conditions.drive_path_m;
   if (paths * thresholds::kMostDriveSteps < 1.0) return false;

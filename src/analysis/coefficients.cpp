@@ -157,6 +157,7 @@ std::optional<Coefficients> find_coefficients(const Detected& detected, const An
   coefficients.kinetic_first_third = of(sliding.mean(0, size / 3));
   coefficients.kinetic_last_third = of(sliding.mean(size - size / 3, size));
   coefficients.kinetic_sd = describe(recording.force()).sd / load_N;
+  if (!conditions.speed_is_known) return coefficients;
   for (const Standard& standard : kStandards) {
     const double end_s = recording.time_s().front() + standard.travel_m / conditions.speed_m_per_s;
     const auto end = std::upper_bound(recording.time_s().begin(), recording.time_s().end(), end_s);

@@ -21,6 +21,7 @@ namespace {
 Estimate stick_stiffness(const Recording& recording, const Segmentation& segmentation) {
   constexpr std::size_t kFewestSamples = 5;
   const double speed_m_per_s = recording.conditions().speed_m_per_s;
+  if (!recording.conditions().speed_is_known) return unknown(kNoSpeed);
   std::vector<double> slopes;
   for (std::size_t i = 1; i < segmentation.slips.size(); ++i) {
     const std::size_t begin = segmentation.slips[i - 1].trough;
@@ -113,6 +114,10 @@ Derived with_measured_spacing(Derived derived, const Recording& recording, const
                               const CycleStatistics& cycles) {
   if (!frequency.quoted.value) {
     derived.pattern_spacing_m.note = derived.impulse_rate_per_m.note = "no frequency, no spacing";
+    return derived;
+  }
+  if (!recording.conditions().speed_is_known) {
+    derived.pattern_spacing_m.note = derived.impulse_rate_per_m.note = kNoSpeed;
     return derived;
   }
   const double speed = recording.conditions().speed_m_per_s;

@@ -100,7 +100,7 @@ double mean_drop(std::span<const Cycle> cycles) {
 
 }  // namespace
 
-std::optional<ShortTest> test_level_repeats(std::span<const Cycle> cycles, double speed_m_per_s) {
+std::optional<ShortTest> test_level_repeats(std::span<const Cycle> cycles, std::optional<double> speed_m_per_s) {
   if (cycles.size() < thresholds::kFewestOfLine) return std::nullopt;
   cycles = cycles.first(std::min(cycles.size(), kMostSlips));
   const auto count = static_cast<double>(cycles.size());
@@ -119,16 +119,22 @@ std::optional<ShortTest> test_level_repeats(std::span<const Cycle> cycles, doubl
   }
   const Series differences = differences_of(levels);
   const double p = std::max(chance_of(best, levels), chance_of(sine_in(differences, best.waves), differences));
-  const double path_m = speed_m_per_s * (cycles.back().peak_s - cycles.front().peak_s) / best.waves;
+  const double period_s = (cycles.back().peak_s - cycles.front().peak_s) / best.waves;
   // Of the frequency of a sine in white scatter: sqrt(6 / n) sigma / (pi amplitude) waves
   const double scatter = std::sqrt(0.5 * best.rest / (1.0 - best.rest));
-  const double se_m = path_m * std::sqrt(6.0 / count) / std::numbers::pi * scatter / best.waves;
+  const double relative = std::sqrt(6.0 / count) / std::numbers::pi * scatter / best.waves;
+  std::optional<double> path_m, se_m;
+  if (speed_m_per_s) {
+    path_m = *speed_m_per_s * period_s;
+    se_m = *path_m * relative;
+  }
+  const std::string path = path_m ? fmt::format(" or {:.3g} mm of sliding", 1e3 * *path_m) : "";
   const bool is_proven = p < thresholds::kProven;
   return ShortTest{TestKind::LevelRepeats, path_m, se_m, p,
-                   fmt::format("the force level varies by {:.2g} % of the mean drop once every {:.3g} slips or {:.3g} "
-                               "mm of sliding: {} at the {:g} % level (p {:.2g}){}",
-                               100.0 * swing, (count - 1.0) / best.waves, 1e3 * path_m,
-                               is_proven ? "proven" : "not proven", 100.0 * thresholds::kProven, p,
+                   fmt::format("the force level varies by {:.2g} % of the mean drop once every {:.3g} slips{}: {} at "
+                               "the {:g} % level (p {:.2g}){}",
+                               100.0 * swing, (count - 1.0) / best.waves, path, is_proven ? "proven" : "not proven",
+                               100.0 * thresholds::kProven, p,
                                is_proven ? "; texture of the counterface repeats after the same displacement at every "
                                            "speed, a wave of the drive or the sensor after the same time"
                                          : "")};

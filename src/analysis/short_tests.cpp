@@ -177,7 +177,8 @@ std::vector<ShortTest> run_short_tests(const Recording& recording, const Analysi
   std::vector<ShortTest> tests;
   if (analysis.motion != MotionClass::StickSlip) return tests;
   const Conditions& conditions = recording.conditions();
-  if (auto repeats = test_level_repeats(analysis.cycle_table, conditions.speed_m_per_s)) tests.push_back(*repeats);
+  const auto speed_m_per_s = conditions.speed_is_known ? std::optional(conditions.speed_m_per_s) : std::nullopt;
+  if (auto repeats = test_level_repeats(analysis.cycle_table, speed_m_per_s)) tests.push_back(*repeats);
   if (!analysis.fit) return tests;
   const FitResult& fit = *analysis.fit;
   const std::vector<Pair> pairs = pairs_of(fit.cycles);

@@ -101,6 +101,7 @@ Estimate loading_stiffness(const Recording& recording, const Trace& trace, const
   const std::size_t count = reaches(0.8) - begin + 1;
   constexpr std::size_t kParts = 5;
   if (count < 4 * kParts) return unknown("the loading ramp has too few samples");
+  if (!recording.conditions().speed_is_known) return unknown(kNoSpeed);
   const auto part = [&](std::size_t from, std::size_t samples) {
     return line_sums(recording.time_s().subspan(begin + from, samples),
                      recording.force().subspan(begin + from, samples))

@@ -8,6 +8,9 @@
 
 namespace slipfit {
 
+/// Why what depends on the driving speed is not known.
+inline constexpr const char* kNoSpeed = "no driving speed is stated: give it with --speed";
+
 /// A number that is not known, and why.
 inline Estimate unknown(std::string why) {
   return {std::nullopt, std::nullopt, std::nullopt, std::move(why)};

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "core/quantile.hpp"
 #include "core/thrown_error.hpp"
@@ -124,7 +125,11 @@ StatedConditions state_conditions(const Rows& rows, const Choice& choice, const 
   StatedConditions stated{conditions, {}, {}, {}};
   double& speed_m_per_s = stated.conditions.speed_m_per_s;
   const auto measured = level_of(rows.speed_m_per_s);
-  if (speed_m_per_s == 0.0) {
+  const bool is_wanted = std::exchange(stated.conditions.speed_is_known, true);
+  if (speed_m_per_s == 0.0 && !is_wanted && !(measured && measured->is_steady)) {
+    speed_m_per_s = 1.0;
+    stated.conditions.speed_is_known = false;
+  } else if (speed_m_per_s == 0.0) {
     if (!measured || !measured->is_steady) throw no_speed(choice, layout, file);
     speed_m_per_s = measured->value;
     stated.assumed.push_back(fmt::format("Speed is {}: {:.6g} m/s, standard deviation {:.2g} m/s.",
@@ -136,7 +141,7 @@ StatedConditions state_conditions(const Rows& rows, const Choice& choice, const 
                                       "used, and stiffness and spacing depend on it",
                                       speed_m_per_s, describe(layout, choice.speed->column), measured->value)});
   }
-  if (choice.displacement && !rows.displacement_m.empty()) {
+  if (choice.displacement && !rows.displacement_m.empty() && stated.conditions.speed_is_known) {
     if (auto moved = steady_speed_m_per_s(rows)) {
       const std::string name = describe(layout, choice.displacement->column);
       if (auto error = mistaken_speed(stated.conditions, *moved->value, name, file))

@@ -191,6 +191,7 @@ std::string stated_text(double value, const DisplayUnit& unit) {
 }
 
 std::string speed_text(const Conditions& conditions) {
+  if (!conditions.speed_is_known) return "an unknown speed";
   return stated_text(conditions.speed_m_per_s, speed_unit(conditions.speed_unit, conditions.speed_m_per_s));
 }
 

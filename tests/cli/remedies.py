@@ -122,9 +122,9 @@ def write_files(folder):
     run(folder, ["batch", "pair.csv", "--out", "second", "--shard", "2/2"])
 
 
-def of_file(name, *remedy, speed=True):
+def of_file(name, *remedy):
     """The refused command, and the one with the remedy: options, or another file in place of the first."""
-    command = ["analyze", name, *(V if speed else [])]
+    command = ["analyze", name, *V]
     return command, [*command, *remedy]
 
 
@@ -157,9 +157,9 @@ CASES = [  # codes, words of the message, refused command, command with the reme
     ("bad_rows", "A:B", [*ANALYZE, "--rows", "30:10"], [*ANALYZE, "--rows", "10:300"]),
     ("unknown_step", "--step", ["analyze", "steps.csv", *V, "--step", "7"], ["analyze", "steps.csv", *V, "--step", "2"]),
     ("part_empty", "--rows", [*ANALYZE, "--rows", "900:999"], [*ANALYZE, "--rows", "1:300"]),
-    ("no_speed", "--speed", *of_file("ok.csv", *V, speed=False)),
+    ("no_speed", "--speed", ["fit", "ok.csv"], ["fit", "ok.csv", *V]),
     ("speed_contradicted", "--speed 600mm/min", ["analyze", "moves.csv", "--speed", "600mm/s"], ["analyze", "moves.csv", "--speed", "600mm/min"]),
-    ("speed_varies", "--speed", *of_file("speeds.csv", *V, speed=False)),
+    ("speed_varies", "--speed", ["fit", "speeds.csv"], ["fit", "speeds.csv", *V]),
     ("bad_sample_rate", "above|positive", ["analyze", "force.csv", *V, "--sample-rate", "0"], ["analyze", "force.csv", *V, "--sample-rate", "100"]),
     ("window_empty", "clock runs from", [*ANALYZE, "--window", "50:60"], [*ANALYZE, "--window", "0:3"]),
     ("unread_numbers", "another column with --force-column", *of_file("brackets.csv", "--force-column", "spare")),

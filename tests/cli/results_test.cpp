@@ -29,6 +29,23 @@ std::string first_line(const std::string& text) {
 
 }  // namespace
 
+TEST_CASE("analyze needs no speed, and gives nothing that depends on it without one") {
+  const Example example;
+  const nlohmann::json without = fit_json({"analyze", example.file, "--json"});
+  const nlohmann::json with = fit_json({"analyze", example.file, "--speed", "20mm/s", "--json"});
+  CHECK(without["status"] == "stick_slip");
+  CHECK(without["frequency"] == with["frequency"]);
+  CHECK(without["cycles"]["period_s"] == with["cycles"]["period_s"]);
+  CHECK(without["recording"]["speed_m_per_s"].is_null());
+  for (const char* name : {"pattern_spacing_m", "impulse_rate_per_m"}) {
+    INFO(name);
+    CHECK(with["derived"][name]["value"].is_number());
+    CHECK(without["derived"][name]["value"].is_null());
+    CHECK_THAT(without["derived"][name]["note"].get<std::string>(), Catch::Contains("--speed"));
+  }
+  CHECK(slipfit({"fit", example.file}).exit_code == 2);
+}
+
 TEST_CASE("help and version go to standard output with exit code 0") {
   for (const std::vector<std::string>& arguments : {std::vector<std::string>{"--help"},
                                                     {"--version"},

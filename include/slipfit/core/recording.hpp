@@ -54,7 +54,9 @@ struct Labels {
 
 /// The conditions of a recording: information that the trace itself does not contain.
 struct Conditions {
-  double speed_m_per_s = 0.0;                          ///< driving speed, > 0
+  double speed_m_per_s = 0.0;  ///< driving speed, > 0
+  /// False: nothing that depends on the speed is wanted, and a recording is read without one. The speed is then 1 m/s.
+  bool speed_is_known = true;
   std::optional<double> speed_standard_error_m_per_s;  ///< of the stated speed, when the user gives one
   std::optional<double> normal_force_N;                ///< > 0
   ForceView force_view = ForceView::Spring;
