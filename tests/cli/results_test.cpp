@@ -138,7 +138,7 @@ TEST_CASE("option --out keeps a link a link and writes directly to special files
   std::filesystem::create_symlink(target, link);
   CHECK(slipfit({"analyze", example.file, "--speed", "20mm/s", "--json", "--out", link}).exit_code == 0);
   CHECK(std::filesystem::is_symlink(link));
-  CHECK(test::content_of(target).rfind("{", 0) == 0);
+  CHECK(test::content_of(target).rfind('{', 0) == 0);
   CHECK(slipfit({"analyze", example.file, "--speed", "20mm/s", "--json", "--out", "/dev/null"}).exit_code == 0);
   CHECK(std::filesystem::is_character_file("/dev/null"));
   const test::ProgramResult full = slipfit({"analyze", example.file, "--speed", "20mm/s", "--out", "/dev/full"});
