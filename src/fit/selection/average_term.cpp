@@ -168,12 +168,14 @@ bool repeats_rounding(const DampedFit& fit) {
 double unstated_variance_s2(const DampedFit& fit, const Smoothing& seen, double sample_interval_s) {
   // The moves are those of little averaging; more bends them: 24 % at 4 samples in a slip, 11 % at 6.
   constexpr double kBend = 4.0;
+  constexpr double kMostBend = 0.25;
   const double of_step_s2 = sample_interval_s * sample_interval_s / 12.0;
   const double omega = std::exp(fit.blocks.parameters.values(kLogFrequency));
-  const double step_s2 = of_step_s2 * (1.0 + kBend * omega * omega * of_step_s2);
+  const double step_s2 = of_step_s2 * (1.0 + std::min(kMostBend, kBend * omega * omega * of_step_s2));
   if (repeats_rounding(fit)) return step_s2;
   const double largest_s2 = seen.largest_variance_s2();
-  return seen.variance_s2 > step_s2 ? largest_s2 : std::clamp(largest_s2, 0.0, step_s2);
+  const bool is_shown = median_slip_s(fit.blocks) > thresholds::kSlipSamples * sample_interval_s;
+  return seen.variance_s2 > step_s2 ? largest_s2 : std::clamp(largest_s2, is_shown ? 0.0 : step_s2, step_s2);
 }
 
 }  // namespace slipfit::fit
