@@ -4,6 +4,7 @@ import math
 
 from scipy.signal import butter, lfilter, lfilter_zi
 
+from families_outside import SHARED
 from scenes import draw_rig, np, scene
 
 K_AND_MASS = ("stiffness_N_per_m", "mass_kg")
@@ -42,7 +43,7 @@ def flash_temperature(rng):
     slip_m = 2 * rig.drop / rig.model.stiffness
     rig.model.heat_slope = rng.uniform(0.05, 0.5) * rig.drop / slip_m
     rig.model.heat_time = math.pi / rig.model.omega * rng.uniform(0.5, 2)
-    return scene(rig, rig.run(), known=("stiffness_N_per_m", "natural_frequency_rad_per_s", "mass_kg"))
+    return scene(rig, rig.run(), known=SHARED)
 
 
 def stribeck_minimum(rng):
@@ -52,7 +53,7 @@ def stribeck_minimum(rng):
     rig.model.stribeck_force, rig.model.stribeck_speed = rig.drop * rng.uniform(0.1, 0.5), fastest * rng.uniform(0.05, 0.3)
     rig.drop += rig.model.stribeck_force
     rig.model.quadratic = rng.uniform(0.1, 0.4) * rig.drop / fastest**2
-    return scene(rig, rig.run(), known=("stiffness_N_per_m", "natural_frequency_rad_per_s", "mass_kg"))
+    return scene(rig, rig.run(), known=SHARED)
 
 
 def _fixed_depth(rng):
@@ -64,14 +65,14 @@ def _fixed_depth(rng):
 def fixed_depth(rng):
     """The bending of the holder changes the load as it changes the force."""
     rig = _fixed_depth(rng)
-    return scene(rig, rig.run(), known=("stiffness_N_per_m", "natural_frequency_rad_per_s", "mass_kg"))
+    return scene(rig, rig.run(), known=SHARED)
 
 
 def fixed_depth_measured(rng):
     """The same with a column of the normal force."""
     rig = _fixed_depth(rng)
     motion = rig.run()
-    result = scene(rig, motion, known=("stiffness_N_per_m", "natural_frequency_rad_per_s", "mass_kg"))
+    result = scene(rig, motion, known=SHARED)
     load = rig.kinetic / rng.uniform(0.3, 1.0)
     share = 1 + rig.model.load_slope * (motion.force - rig.kinetic) / rig.kinetic
     result.normal_N = load * (share + 1e-3 * rng.standard_normal(len(share)))

@@ -1,8 +1,7 @@
 """Families of testers and their exports: clocks and numbers that software made coarser or finer, sensors that drop out, noise that is
 not white, and slips in other proportions than those of the other families."""
-from scipy.signal import lfilter
-
-from scenes import Scene, draw_rig, np, scene, simulate
+from families_inside import K_ONLY, averaged
+from scenes import Scene, draw_rig, np, red, scene, simulate
 
 EFFECTS = ("relaxes", "weakens", "ages", "stribeck", "reloads", "creeps", "heats", "wave", "trend", "scatter", "averaged", "line", "smooth")
 
@@ -23,7 +22,7 @@ def interpolated(rng):
 def decimated(rng):
     """Averaged by software over as many samples as it keeps one."""
     rig = draw_rig(rng, per_slip=(60, 200))
-    result = scene(rig, rig.run(), known=("stiffness_N_per_m",))
+    result = scene(rig, rig.run(), known=K_ONLY)
     factor = int(rng.integers(3, 10))
     n = len(result.force) // factor * factor
     force = result.force[:n].reshape(-1, factor).mean(axis=1)
@@ -33,7 +32,7 @@ def decimated(rng):
 def rounded_times(rng):
     """Times of a millisecond or so: several samples share one."""
     rig = draw_rig(rng)
-    result = scene(rig, rig.run(), known=("stiffness_N_per_m",))
+    result = scene(rig, rig.run(), known=K_ONLY)
     digit = rig.step * rng.uniform(1.2, 4)
     return _again(result, np.floor(result.time_s / digit) * digit, result.force)
 
@@ -70,9 +69,8 @@ def smooth_noise(rng):
     """Noise of a filter of first order over 2 to 20 samples."""
     rig = draw_rig(rng)
     motion = rig.run()
-    a = np.exp(-1 / rng.uniform(2, 20))
-    noise = lfilter([1 - a], [1, -a], rng.standard_normal(len(motion.force)))
-    return scene(rig, motion, motion.force + rig.drop * rng.uniform(0.003, 0.03) * noise / noise.std(), noise=False)
+    noise = red(rng, len(motion.force), rng.uniform(2, 20))
+    return scene(rig, motion, motion.force + rig.drop * rng.uniform(0.003, 0.03) * noise, noise=False)
 
 
 def _that_sticks(rng, **proportions):
@@ -150,14 +148,11 @@ def _mixed(rng):
     force = motion.force
     if has():
         width = int(rng.integers(2, 8))
-        force = np.convolve(np.pad(force, width, "edge"), np.ones(width) / width, "same")[width:-width]
+        force = averaged(force, np.ones(width) / width)
     if has():
         force = force + drop * rng.uniform(0.01, 0.1) * np.sin(2 * np.pi * rng.uniform(0.3, 30) / rig.period_s * time_s)
-    noise = rig.white(len(force))
-    if has():
-        a = np.exp(-1 / rng.uniform(1, 8))
-        noise = lfilter([np.sqrt(1 - a * a)], [1, -a], noise)
-    result = scene(rig, motion, force + noise, known=("stiffness_N_per_m",), noise=False)
+    noise = rig.noise * red(rng, len(force), rng.uniform(1, 8)) if has() else rig.white(len(force))
+    result = scene(rig, motion, force + noise, known=K_ONLY, noise=False)
     result.truth |= {"period_s": rig.period_s, "has": [name for name, is_in in zip(EFFECTS, drawn) if is_in]}
     return result
 

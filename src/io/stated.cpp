@@ -126,11 +126,11 @@ StatedConditions state_conditions(const Rows& rows, const Choice& choice, const 
   double& speed_m_per_s = stated.conditions.speed_m_per_s;
   const auto measured = level_of(rows.speed_m_per_s);
   const bool is_wanted = std::exchange(stated.conditions.speed_is_known, true);
-  if (speed_m_per_s == 0.0 && !is_wanted && !(measured && measured->is_steady)) {
+  if (speed_m_per_s == 0.0 && !(measured && measured->is_steady)) {
+    if (is_wanted) throw no_speed(choice, layout, file);
     speed_m_per_s = 1.0;
     stated.conditions.speed_is_known = false;
   } else if (speed_m_per_s == 0.0) {
-    if (!measured || !measured->is_steady) throw no_speed(choice, layout, file);
     speed_m_per_s = measured->value;
     stated.assumed.push_back(fmt::format("Speed is {}: {:.6g} m/s, standard deviation {:.2g} m/s.",
                                          describe(layout, choice.speed->column), speed_m_per_s,

@@ -27,11 +27,11 @@ inline constexpr const char* kOneSpeed =
 inline constexpr const char* kSlipsAlone =
     "assumes friction and a load that stay the same within a slip (a fall by half of F_s - F_k would make w_n 15 % "
     "higher): --mass tests this";
-/// The condition itself.
-inline constexpr const char* kSameWithinSlip = "friction and a load that stay the same within a slip (w_n and m)";
-/// The same where the measured normal force changes within it.
+/// States the same where the measured normal force changes within a slip.
 inline constexpr const char* kLoadFollows =
     "the measured normal force follows the force, and friction with it: m includes this, w_n is that of the slips";
+/// States what both depend on, for FitResult::conditional_on.
+inline constexpr const char* kSameWithinSlip = "friction and a load that stay the same within a slip (w_n and m)";
 
 /// States the source of w_n and mass that are not read from the slips.
 inline constexpr const char* kRingDown = "the free ring-down, which was used as data for w_n and zeta";

@@ -50,8 +50,9 @@ struct Bend {
   const char* where = "";
 };
 
-/// Returns the bend that moves k most; the result is empty where none is clear. k depends on the stretch that is used,
-/// by half of what its halves differ. Creep and a rise after slips hide each other, where all of it counts.
+/// Returns the bend that moves k most; the result is empty where none is clear. The slope of a bent ramp depends on the
+/// part that is used, by half of the difference between its two halves. Creep before a slip and a rise of the force
+/// after it hide each other: beside a fitted rise, k may be off by all of the bend in the second half.
 std::optional<Bend> bend_of(const BlockFit& blocks) {
   std::optional<Bend> largest;
   const auto add = [&](const std::optional<RampBend>& seen, double share, const char* where) {
@@ -249,10 +250,6 @@ void state_doubts(const Conditions& conditions, const TierFits& fits, const Reso
   if (!is_resolved || !tells) {
     findings.difference_bounds = bounds_by_drop(fits.sawtooth, static_cast<double>(findings.cycles));
   }
-}
-
-bool agrees_with_stated_mass(const Conditions& conditions, const DampedFit& fit) {
-  return conditions.mass_kg && std::abs(sigmas_of_stated_mass(conditions, fit)) < thresholds::kClearSigmas;
 }
 
 std::optional<Estimate> fitted_average_of(const DampedFit& fit) {

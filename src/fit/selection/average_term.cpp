@@ -62,9 +62,8 @@ bool rules_out_lag(const FitInput& input, const DampedFit& plain, const BlockFit
 /// neither.
 double gain_by_mass(const FitInput& input, const DampedFit& fit, const DampedFit& plain) {
   const Conditions& conditions = input.recording.conditions();
-  const double sigmas = sigmas_of_stated_mass(conditions, fit);
-  const bool agrees = std::abs(sigmas) < thresholds::kClearSigmas;
-  return agrees ? std::pow(sigmas_of_stated_mass(conditions, plain), 2) - sigmas * sigmas : 0.0;
+  if (!agrees_with_stated_mass(conditions, fit)) return 0.0;
+  return std::pow(sigmas_of_stated_mass(conditions, plain), 2) - std::pow(sigmas_of_stated_mass(conditions, fit), 2);
 }
 
 /// The fit of all cycles that explains them best, and another average that does so as well.

@@ -42,6 +42,10 @@ double sigmas_of_stated_mass(const Conditions& conditions, const DampedFit& fit)
   return apart / std::hypot(std::sqrt(std::max(0.0, variance)), relative_mass_error(conditions));
 }
 
+bool agrees_with_stated_mass(const Conditions& conditions, const DampedFit& fit) {
+  return conditions.mass_kg && std::abs(sigmas_of_stated_mass(conditions, fit)) < thresholds::kClearSigmas;
+}
+
 std::optional<StatedMass> mass_for_frequency(const Conditions& conditions, const HeldParameters& held,
                                              double stiffness_N_per_m, double average_s) {
   if (!conditions.mass_kg || held.natural_frequency_rad_per_s) return std::nullopt;

@@ -12,6 +12,9 @@ namespace slipfit::fit {
 /// stated or w_n is held.
 double sigmas_of_stated_mass(const Conditions& conditions, const DampedFit& fit);
 
+/// Returns whether a mass is stated that agrees with k / w_n^2 of a fit, or with a w_n that is held.
+bool agrees_with_stated_mass(const Conditions& conditions, const DampedFit& fit);
+
 /// A stated mass that gives the natural frequency, sqrt(k / m). kg > 0.
 struct StatedMass {
   double kg = 0.0;
