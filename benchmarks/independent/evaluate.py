@@ -26,7 +26,8 @@ RIGHT = {"stick_slip": {"stick_slip"}, "reciprocating": {"stick_slip"},
 
 
 def analysed(program, folder, truth):
-    command = [program, "fit", str(folder / truth["file"]), "--speed", f"{truth['speed_m_per_s']:.9g}", "--json"]
+    command = [program, "fit", str(folder / truth["file"]), "--speed", f"{truth['speed_m_per_s']:.9g}", "--json",
+               *truth.get("options", [])]
     try:
         run = subprocess.run(command, capture_output=True, text=True, check=False, timeout=120)
     except subprocess.TimeoutExpired:

@@ -2,6 +2,7 @@
 follows the force, and filters of higher order."""
 import math
 
+from scipy.interpolate import CubicSpline
 from scipy.signal import butter, lfilter, lfilter_zi
 
 from families_outside import SHARED
@@ -79,10 +80,14 @@ def fixed_depth_measured(rng):
     return result
 
 
+def _corner_Hz(rig, rng, lowest, highest):
+    return rig.model.omega / (2 * math.pi) * math.exp(rng.uniform(math.log(lowest), math.log(highest)))
+
+
 def _filtered(rng, order):
     rig = draw_rig(rng, per_slip=(20, 60))
     motion = rig.run()
-    cut_off_Hz = rig.model.omega / (2 * math.pi) * math.exp(rng.uniform(math.log(3), math.log(15)))
+    cut_off_Hz = _corner_Hz(rig, rng, 3, 15)
     b, a = butter(order, min(0.9, 2 * cut_off_Hz * rig.step))
     force = motion.force + rig.white(len(motion.force))
     return scene(rig, motion, lfilter(b, a, force, zi=lfilter_zi(b, a) * force[0])[0], noise=False)
@@ -101,5 +106,20 @@ def filter_fourth(rng):
     return _filtered(rng, 4)
 
 
+def filter_stated(rng):
+    """An analogue filter of second to fourth order at 1 to 15 times the natural frequency, whose data sheet is at hand."""
+    order, finer = int(rng.integers(2, 5)), 16
+    rig = draw_rig(rng, per_slip=(20, 60))
+    motion = rig.run()
+    corner_Hz = _corner_Hz(rig, rng, 1, 15)
+    b, a = butter(order, min(0.9, 2 * corner_Hz * rig.step / finer))
+    fine_s = np.linspace(motion.time_s[0], motion.time_s[-1], finer * (len(motion.time_s) - 1) + 1)
+    force = CubicSpline(motion.time_s, motion.force)(fine_s)
+    shown = lfilter(b, a, force, zi=lfilter_zi(b, a) * force[0])[0][::finer]
+    result = scene(rig, motion, shown)
+    result.truth["options"] = ["--sensor-filter", f"{order}, {corner_Hz:.9g} Hz"]
+    return result
+
+
 FAMILIES = [relaxing_solid, relaxing_prony, relaxing_rubber, flash_temperature, stribeck_minimum, fixed_depth, fixed_depth_measured,
-            filter_second, filter_third, filter_fourth]
+            filter_second, filter_third, filter_fourth, filter_stated]

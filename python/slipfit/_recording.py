@@ -45,7 +45,8 @@ class Recording:
         What results and messages call the recording.
     sample_rate, time_unit, force_unit, window, rows
         As for `read_recording`.
-    speed_uncertainty, radius, mass, mass_uncertainty, force_view, drift, sensor_bandwidth, sensor_average, sensor_resonance,
+    speed_uncertainty, radius, mass, mass_uncertainty, force_view, drift, sensor_bandwidth, sensor_filter, sensor_average,
+    sensor_resonance,
     drive_period, drive_path, measured_spacing, measured_spacing_uncertainty, surface, group, sample, material, operator
         As for `read_recording`.
 
@@ -86,6 +87,7 @@ class Recording:
         force_view: Optional[str] = None,
         drift: Optional[str] = None,
         sensor_bandwidth: Optional[Quantity] = None,
+        sensor_filter: Optional[str] = None,
         sensor_average: Optional[Quantity] = None,
         sensor_resonance: Optional[Quantity] = None,
         drive_period: Optional[Quantity] = None,
@@ -229,6 +231,7 @@ def read_recording(
     force_view: Optional[str] = ...,
     drift: Optional[str] = ...,
     sensor_bandwidth: Optional[Quantity] = ...,
+    sensor_filter: Optional[str] = ...,
     sensor_average: Optional[Quantity] = ...,
     sensor_resonance: Optional[Quantity] = ...,
     drive_period: Optional[Quantity] = ...,
@@ -274,6 +277,7 @@ def read_recording(  # type: ignore[misc]  # arguments of the other two are thos
     force_view: Optional[str] = None,
     drift: Optional[str] = None,
     sensor_bandwidth: Optional[Quantity] = None,
+    sensor_filter: Optional[str] = None,
     sensor_average: Optional[Quantity] = None,
     sensor_resonance: Optional[Quantity] = None,
     drive_period: Optional[Quantity] = None,
@@ -335,10 +339,12 @@ def read_recording(  # type: ignore[misc]  # arguments of the other two are thos
         Standard error of the mass: ``"5 g"``, ``"1 %"``; 2 % of it by default.
     force_view : "spring", "transmitted" or "contact"
         Which force the sensor sees.
-    drift : "sensor" or "friction"
+    drift : "sensor", "friction" or "none"
         How a trend of the force level is read; without it intervals include both readings where the data do not decide.
     sensor_bandwidth, sensor_resonance : float or str
         Of the sensor (Hz).
+    sensor_filter : str
+        Low-pass filter of the instrument (Butterworth), order and corner: ``"4, 200 Hz"``.
     sensor_average : float or str
         Time over which each sample is averaged (s); 0 for an instant.
     drive_period : float or str

@@ -121,10 +121,20 @@ std::shared_ptr<const WornTrack> track_from(const std::optional<TrackState>& sta
 using ConditionNumbers = std::vector<std::optional<double>>;
 
 ConditionNumbers numbers_of(const Conditions& c) {
-  return {
-      c.speed_m_per_s,         c.speed_standard_error_m_per_s, c.normal_force_N, c.zero_force_N, c.sensor_bandwidth_Hz,
-      c.sensor_average_s,      c.sensor_resonance_Hz,          c.drive_period_s, c.mass_kg,      c.measured_spacing_m,
-      c.measured_spacing_se_m, c.mass_standard_error_kg,       c.drive_path_m};
+  return {c.speed_m_per_s,
+          c.speed_standard_error_m_per_s,
+          c.normal_force_N,
+          c.zero_force_N,
+          c.sensor_bandwidth_Hz,
+          c.sensor_average_s,
+          c.sensor_resonance_Hz,
+          c.drive_period_s,
+          c.mass_kg,
+          c.measured_spacing_m,
+          c.measured_spacing_se_m,
+          c.mass_standard_error_kg,
+          c.drive_path_m,
+          static_cast<double>(c.sensor_filter_order)};
 }
 
 Conditions conditions_from(const ConditionNumbers& n) {
@@ -142,6 +152,7 @@ Conditions conditions_from(const ConditionNumbers& n) {
   c.measured_spacing_se_m = n.at(10);
   c.mass_standard_error_kg = n.at(11);
   c.drive_path_m = n.at(12);
+  c.sensor_filter_order = static_cast<std::size_t>(n.at(13).value());
   return c;
 }
 

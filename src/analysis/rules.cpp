@@ -39,10 +39,10 @@ Messages proven(const Facts& facts, TestKind kind, const char* consequence = "")
 }
 
 Messages sensor_too_slow(const Facts& facts) {
-  const std::optional<double>& bandwidth_Hz = facts.detected.recording().conditions().sensor_bandwidth_Hz;
+  const std::optional<double> lag_s = facts.detected.recording().conditions().sensor_lag_s();
   const std::optional<double>& period_s = facts.analysis.cycles.period_s;
-  if (!bandwidth_Hz || !period_s) return {};
-  const double lags = *period_s * 2.0 * std::numbers::pi * *bandwidth_Hz;
+  if (!lag_s || !period_s) return {};
+  const double lags = *period_s / *lag_s;
   return when(lags <= thresholds::kLagsOfCycle,
               fmt::format("a cycle lasts only {:.2g} times the lag of the sensor: its response to one slip has "
                           "not decayed when the next begins",

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "core/clock_step.hpp"
+#include "core/filter_delay.hpp"
 
 namespace slipfit {
 namespace {
@@ -47,6 +49,11 @@ struct Recording::Samples {
 
 double Recording::whole_begin_s() const {
   return samples_->time_s.front();
+}
+
+std::optional<double> Conditions::sensor_lag_s() const {
+  if (!sensor_bandwidth_Hz) return std::nullopt;
+  return butterworth_delay(sensor_filter_order) / (2.0 * std::numbers::pi * *sensor_bandwidth_Hz);
 }
 
 Result<Recording> Recording::create(std::vector<double> time_s, std::vector<double> force, Conditions conditions,

@@ -63,11 +63,30 @@ std::optional<Error> set_force_view(ManifestEntry& entry, const std::string& cel
 
 std::optional<Error> set_drift(ManifestEntry& entry, const std::string& cell) {
   constexpr auto kReadings = std::to_array<std::pair<std::string_view, LevelReading>>(
-      {{"sensor", LevelReading::Sensor}, {"friction", LevelReading::Friction}});
+      {{"sensor", LevelReading::Sensor}, {"friction", LevelReading::Friction}, {"none", LevelReading::None}});
   const auto* const reading =
       std::find_if(kReadings.begin(), kReadings.end(), [&](const auto& r) { return r.first == cell; });
-  if (reading == kReadings.end()) return refusal("unknown_drift", cell, "sensor or friction");
+  if (reading == kReadings.end()) return refusal("unknown_drift", cell, "sensor, friction or none");
   entry.conditions.drift = reading->second;
+  return std::nullopt;
+}
+
+/// "4, 200 Hz": order and corner of a Butterworth response.
+std::optional<Error> set_sensor_filter(ManifestEntry& entry, const std::string& cell) {
+  const std::size_t comma = cell.find_first_of(",;");
+  const double order = plain_number(std::string_view(cell).substr(0, comma), false);
+  const bool is_order = order >= 1.0 && order <= static_cast<double>(kHighestFilterOrder) && order == std::floor(order);
+  const Result<double> corner_Hz = comma == std::string::npos
+                                       ? Result<double>(Error{"bad_sensor_filter", ""})
+                                       : parse_quantity(std::string_view(cell).substr(comma + 1), Dimension::Frequency);
+  if (!is_order || !corner_Hz || !(corner_Hz.value() > 0.0)) {
+    return refusal("bad_sensor_filter", cell, "an order from 1 to 8 and a corner frequency, such as '4, 200 Hz'");
+  }
+  if (entry.conditions.sensor_bandwidth_Hz) {
+    return refusal("conflicting_sensor", cell, "either a bandwidth (first order) or a filter");
+  }
+  entry.conditions.sensor_bandwidth_Hz = corner_Hz.value();
+  entry.conditions.sensor_filter_order = static_cast<std::size_t>(order);
   return std::nullopt;
 }
 
@@ -159,6 +178,10 @@ constexpr std::array kFields = std::to_array<ManifestField>({
     number_field({"sensor_bandwidth", "--sensor-bandwidth",
                   "Bandwidth (-3 dB) of the sensor, first order: 500 (Hz), 2kHz; the model includes the lag"},
                  "_Hz", Dimension::Frequency, Bound::AboveZero, set_number_of<&Conditions::sensor_bandwidth_Hz>),
+    text_field(
+        {"sensor_filter", "--sensor-filter",
+         "Low-pass filter of the instrument (Butterworth): order and corner, '4, 200 Hz'; the model includes it"},
+        set_sensor_filter),
     number_field(
         {"sensor_average", "--sensor-average,--averaging",
          "Time over which each sample is averaged: 0.002 (s), 2ms, 0 for none; the model includes the averaging"},
@@ -174,8 +197,8 @@ constexpr std::array kFields = std::to_array<ManifestField>({
     text_field({"force_view", "--force-view", "Force that the sensor measures: spring (default), transmitted, contact"},
                set_force_view),
     text_field({"drift", "--drift",
-                "Cause of a trend of the force level: sensor (drift) or friction (change); default: intervals include "
-                "both unless the data decide"},
+                "Cause of a trend of the force level: sensor (drift), friction (change), or none (no trend); default: "
+                "intervals include sensor and friction unless the data decide"},
                set_drift),
     text_field({"group"}, set_label<&Labels::group>),
     text_field({"sample"}, set_label<&Labels::sample>),

@@ -56,7 +56,7 @@ struct ManifestColumns {
 Result<ManifestColumns> find_manifest_columns(const std::vector<std::string>& names, const std::string& place);
 
 /// The entry with what a cell says about it. Errors: missing_value, bad_id, bad_number, out_of_range, bad_window,
-/// unknown_unit, unknown_force_view, unknown_drift, no_speed.
+/// unknown_unit, unknown_force_view, unknown_drift, bad_sensor_filter, conflicting_sensor, no_speed.
 Result<ManifestEntry> with_cell(ManifestEntry entry, const ManifestColumn& column, const std::string& cell,
                                 bool decimal_comma);
 

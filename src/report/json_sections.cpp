@@ -84,6 +84,7 @@ Json recording_json(const Recording& recording, const Analysis& analysis) {
             {"assumed", provenance.assumed},
             {"sliding_s", {analysis.sliding.begin_s, analysis.sliding.end_s}},
             {"quality", quality_json(recording, analysis.quality)}};
+  if (conditions.sensor_filter_order > 1) json["sensor_filter_order"] = conditions.sensor_filter_order;
   if (conditions.drive_path_m) json["drive_path_m"] = *conditions.drive_path_m;
   const Labels& labels = conditions.labels;
   for (const auto& [key, label] : {std::pair{"group", &labels.group},

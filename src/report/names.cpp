@@ -29,7 +29,7 @@ std::string_view name_of(ForceQuantity quantity) {
 }
 
 std::string_view name_of(LevelReading reading) {
-  return name_in({"open", "sensor", "friction"}, reading);
+  return name_in({"open", "sensor", "friction", "none"}, reading);
 }
 
 std::string_view name_of(MotionClass motion) {

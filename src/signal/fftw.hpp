@@ -57,7 +57,7 @@ class ComplexTransform {
   explicit ComplexTransform(std::size_t length) : length_(length) {
     const Buffer in = allocate(length);
     const Buffer out = is_in_place() ? Buffer() : allocate(length);
-    (void)allocate(length / 2 + kPlanned);  // freed at once: the planner, which ends the program too, finds that much
+    (void)allocate(length / 2 + kReserve);
     const std::lock_guard lock(PlanLocks::get().planner);
     plan_ = fftw_plan_dft_1d(static_cast<int>(length), raw(in), raw(out ? out : in), FFTW_FORWARD, FFTW_ESTIMATE);
   }
@@ -74,6 +74,7 @@ class ComplexTransform {
   /// The transformed values; those handed in are overwritten.
   [[nodiscard]] Buffer run(Buffer in) const {
     Buffer out = is_in_place() ? Buffer() : allocate(length_);
+    (void)allocate(kReserve);
     fftw_execute_dft(plan_, raw(in), raw(out ? out : in));
     return out ? std::move(out) : std::move(in);
   }
@@ -84,7 +85,9 @@ class ComplexTransform {
   [[nodiscard]] bool is_in_place() const { return length_ > kLargeLength; }
 
   static constexpr std::align_val_t kAlignment{64};
-  static constexpr std::size_t kPlanned = std::size_t{1} << 14U;
+  /// Allocated and freed at once before FFTW plans or runs: its own allocations, whose failure ends the program, then
+  /// succeed. 1 MB: the planner's tables of all kernels for this processor, and the buffers of a plan.
+  static constexpr std::size_t kReserve = std::size_t{1} << 16U;
   static constexpr std::size_t kLargeLength = std::size_t{1} << 20U;
 
   static fftw_complex* raw(const Buffer& buffer) {

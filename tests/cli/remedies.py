@@ -100,7 +100,7 @@ def write_files(folder):
     }.items():
         (folder / name).write_text("\n".join(["id,file,speed_m_per_s", *lines]) + "\n")
     for name, column, cell in [("step", "step", "x"), ("where", "where", "x"), ("stroke", "strokes", "x"), ("segment", "segments", "x"),
-                               ("view", "force_view", "x"), ("drift", "drift", "x"), ("group", "group", "steel")]:
+                               ("view", "force_view", "x"), ("drift", "drift", "x"), ("filter", "sensor_filter", "4"), ("group", "group", "steel")]:
         (folder / f"m_{name}.csv").write_text(f"id,file,speed_m_per_s,{column}\nok,ok.csv,0.01,{cell}\n")
     (folder / "m_pieces.csv").write_text("id,file,speed_m_per_s,strokes,segments\nok,ok.csv,0.01,both,yes\n")
     (folder / "m_double.csv").write_text("id,file,speed_m_per_s,speed [mm/s]\nok,ok.csv,0.01,10\n")
@@ -200,7 +200,10 @@ CASES = [  # codes, words of the message, refused command, command with the reme
     ("bad_segments", "yes or no", B("m_segment.csv"), TO_M),
     ("conflicting_pieces", "either", B("m_pieces.csv"), TO_M),
     ("unknown_force_view", "spring", B("m_view.csv"), TO_M),
-    ("unknown_drift", "sensor or friction", B("m_drift.csv"), TO_M),
+    ("unknown_drift", "sensor, friction or none", B("m_drift.csv"), TO_M),
+    ("bad_sensor_filter", "200 Hz", B("m_filter.csv"), TO_M),
+    ("conflicting_sensor", "either", ["fit", "demo.csv", "--speed", "10mm/s", "--sensor-bandwidth", "1kHz", "--sensor-filter", "2, 1kHz"],
+     ["fit", "demo.csv", "--speed", "10mm/s", "--sensor-bandwidth", "1kHz"]),
     ("unknown_group", "steel", ["fit", "--joint", "m_group.csv", "--group", "brass"], ["fit", "--joint", "pair.csv"]),
     ("cannot_write", "cannot", ["batch", "m.csv", "--out", "page.txt/x"], ["batch", "m.csv", "--out", "other"]),
     ("folder_of_another_batch", "--out", ["batch", "pair.csv", "--out", "done", "--resume"], ["batch", "pair.csv", "--out", "done2"]),

@@ -238,5 +238,9 @@ TEST_CASE("intervals of the demonstration file include what it was made with, it
   const auto open = document["parameters"]["stiffness_N_per_m"];
   CHECK(open["ci95"][0] <= sensor["ci95"][0]);
   CHECK(open["ci95"][1] >= friction["value"]);
-  CHECK(slipfit({"fit", demo, "--speed", "10mm/s", "--drift", "none"}).exit_code == 2);
+  const auto none = with_drift("none");
+  CHECK(none["level_trend"]["reading"] == "none");
+  CHECK(none["parameters"]["static_friction_N"]["se"] < document["parameters"]["static_friction_N"]["se"]);
+  CHECK(none["warnings"].dump().find("although no trend is stated") != std::string::npos);
+  CHECK(slipfit({"fit", demo, "--speed", "10mm/s", "--drift", "up"}).exit_code == 2);
 }

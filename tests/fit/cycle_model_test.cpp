@@ -29,7 +29,13 @@ CycleData example_cycle() {
   return cycle;
 }
 
-Scales example_scales(ForceView view, double sensor_lag_s = 0.0) {
+/// The low-pass filter of the sensor.
+struct Filter {
+  double lag_s = 0.0;
+  std::size_t order = 1;
+};
+
+Scales example_scales(ForceView view, const Filter& filter = {}) {
   Scales scales;
   scales.speed_m_per_s = 0.01;
   scales.force = 1.3;
@@ -39,7 +45,8 @@ Scales example_scales(ForceView view, double sensor_lag_s = 0.0) {
   scales.time_end_s = 1.5;
   scales.view = view;
   scales.half_period_s = 0.3;
-  scales.sensor_lag_s = sensor_lag_s;
+  scales.sensor_lag_s = filter.lag_s;
+  scales.sensor_order = filter.order;
   scales.sensor_time_unit_s = 0.02;
   return scales;
 }
@@ -161,10 +168,10 @@ LevelModel rising() {
 
 TEST_CASE("residual derivatives of Coulomb friction agree with central differences in every view and level model") {
   const ForceView view = GENERATE(ForceView::Spring, ForceView::Transmitted);
-  const double sensor_lag_s = GENERATE(0.0, 0.02);
+  const Filter filter = GENERATE(Filter{}, Filter{0.02, 1}, Filter{0.02, 4});
   const Average average = GENERATE(Average::None, Average::Stated, Average::Free, Average::BesideFreeLag);
   for (const LevelModel& level : {kPolynomial, kPerCycle, rising()}) {
-    Scales scales = averaged_by(average, example_scales(view, sensor_lag_s));
+    Scales scales = averaged_by(average, example_scales(view, filter));
     // h^2 times third derivatives (up to 1e4 here) and round-off / h; a sample that an event crosses within h keeps its
     // first derivative, its second one jumps: h times that jump.
     check_derivatives(scales, level, 1e-6, 1e-6, 2e-3);
@@ -178,10 +185,10 @@ TEST_CASE("residual derivatives of Coulomb friction agree with central differenc
 TEST_CASE("residual derivatives of friction that depends on the speed agree with central differences") {
   const ForceView view = GENERATE(ForceView::Spring, ForceView::Transmitted);
   const FrictionLaw law = GENERATE(FrictionLaw::Exponential, FrictionLaw::Hyperbolic, FrictionLaw::Logarithmic);
-  const double sensor_lag_s = GENERATE(0.0, 0.02);
+  const Filter filter = GENERATE(Filter{}, Filter{0.02, 1}, Filter{0.02, 4});
   const Average average = GENERATE(Average::None, Average::Stated, Average::Free, Average::BesideFreeLag);
   for (const LevelModel& level : {kPolynomial, kPerCycle, rising()}) {
-    Scales scales = averaged_by(average, example_scales(view, sensor_lag_s));
+    Scales scales = averaged_by(average, example_scales(view, filter));
     scales.law = law;
     scales.population = example_population();
     // The slip is integrated to 1e-9: its noise is 1e-5 in the difference. Second derivatives of up to 1e3 jump where
@@ -192,9 +199,9 @@ TEST_CASE("residual derivatives of friction that depends on the speed agree with
 
 TEST_CASE("residual derivatives of friction that weakens over a slip distance agree with central differences") {
   const ForceView view = GENERATE(ForceView::Spring, ForceView::Transmitted);
-  const double sensor_lag_s = GENERATE(0.0, 0.02);
+  const Filter filter = GENERATE(Filter{}, Filter{0.02, 1}, Filter{0.02, 4});
   const Average average = GENERATE(Average::None, Average::Stated, Average::Free, Average::BesideFreeLag);
-  Scales scales = averaged_by(average, example_scales(view, sensor_lag_s));
+  Scales scales = averaged_by(average, example_scales(view, filter));
   scales.law = FrictionLaw::Weakening;
   scales.slip_distance_m = scales.force / 60.0;
   // As under Coulomb friction.
@@ -203,9 +210,9 @@ TEST_CASE("residual derivatives of friction that weakens over a slip distance ag
 
 TEST_CASE("residual derivatives of a spring that relaxes agree with central differences") {
   const ForceView view = GENERATE(ForceView::Spring, ForceView::Transmitted);
-  const double sensor_lag_s = GENERATE(0.0, 0.02);
+  const Filter filter = GENERATE(Filter{}, Filter{0.02, 1}, Filter{0.02, 4});
   const Average average = GENERATE(Average::None, Average::Stated, Average::Free, Average::BesideFreeLag);
-  Scales scales = averaged_by(average, example_scales(view, sensor_lag_s));
+  Scales scales = averaged_by(average, example_scales(view, filter));
   scales.relaxing = RelaxingCycles{3.3, 12.0, 10.0};
   // As under Coulomb friction.
   for (const LevelModel& level : {kPolynomial, kPerCycle, rising()}) {

@@ -52,8 +52,7 @@ constexpr std::array kTimes{-2.0, -0.01, 0.0, 0.2, 1.7, 3.1, 4.4, 5.0, 9.0};
 TEST_CASE("without dependence on the speed a lagging sensor shows the closed form of Coulomb friction") {
   const Instrument instrument = any_instrument();
   const SpeedDependentCycle integrated = cycle(values_of(0.1, 0.0, 0.0), instrument);
-  const CoulombCycle exact(kOnset, 0.1,
-                           {instrument.lag_tau, instrument.average_tau, instrument.view == ForceView::Transmitted});
+  const CoulombCycle exact(kOnset, 0.1, {instrument.lag_tau, instrument.average_tau}, instrument.view);
   for (const double tau : kTimes) {
     CAPTURE(instrument.lag_tau, instrument.average_tau, tau);
     const model::WavePoint expected = exact.at(tau);

@@ -38,6 +38,7 @@ const char* name_of(FrictionLaw law) {
 struct Instrument {
   double lag_s = 0.0;
   double average_s = 0.0;
+  std::size_t order = 1;
 };
 
 Scales scales_of(FrictionLaw law, ForceView view, const Instrument& instrument, double speed_m_per_s, bool is_sweep) {
@@ -47,6 +48,7 @@ Scales scales_of(FrictionLaw law, ForceView view, const Instrument& instrument, 
   scales.view = view;
   scales.half_period_s = 0.35;
   scales.sensor_lag_s = instrument.lag_s;
+  scales.sensor_order = instrument.order;
   scales.sensor_average_s = instrument.average_s;
   scales.law = law;
   scales.slip_distance_m = kOnsetForce / kStiffness;
@@ -123,9 +125,9 @@ BlockFit displaced(BlockFit fit) {
 }
 
 Instrument any_instrument() {
-  const double lag_s = GENERATE(0.0, 0.02);
-  const double average_s = GENERATE(0.0, 0.05);
-  return {lag_s, average_s};
+  Instrument instrument = GENERATE(Instrument{}, Instrument{0.02, 0.0, 1}, Instrument{0.03, 0.0, 4});
+  instrument.average_s = GENERATE(0.0, 0.05);
+  return instrument;
 }
 
 }  // namespace
@@ -134,7 +136,7 @@ TEST_CASE("one recording gives back the parameters of every law in closed form b
   const FrictionLaw law = GENERATE(FrictionLaw::Coulomb, FrictionLaw::Weakening);
   const ForceView view = GENERATE(ForceView::Spring, ForceView::Transmitted);
   const Instrument instrument = any_instrument();
-  CAPTURE(name_of(law), view == ForceView::Spring, instrument.lag_s, instrument.average_s);
+  CAPTURE(name_of(law), view == ForceView::Spring, instrument.lag_s, instrument.average_s, instrument.order);
   const Coordinates truth = true_values(law);
   BlockFit fit = displaced(exact(scales_of(law, view, instrument, 0.01, false), truth));
   REQUIRE(std::isfinite(solve(fit, {{}, false, false, 200, 1e-12})));
@@ -149,7 +151,7 @@ TEST_CASE("a sweep gives back the parameters of every law behind every sensor in
                                    FrictionLaw::Hyperbolic, FrictionLaw::Logarithmic);
   const ForceView view = GENERATE(ForceView::Spring, ForceView::Transmitted);
   const Instrument instrument = any_instrument();
-  CAPTURE(name_of(law), view == ForceView::Spring, instrument.lag_s, instrument.average_s);
+  CAPTURE(name_of(law), view == ForceView::Spring, instrument.lag_s, instrument.average_s, instrument.order);
   const Coordinates truth = true_values(law);
   std::vector<BlockFit> recordings;
   for (const double speed_m_per_s : {0.004, 0.01, 0.025}) {
@@ -172,7 +174,7 @@ TEST_CASE("a sweep gives back the parameters of a spring that relaxes behind eve
   const ForceView view = GENERATE(ForceView::Spring, ForceView::Transmitted);
   const double time_s = GENERATE(0.15, 0.6);
   const Instrument instrument = any_instrument();
-  CAPTURE(view == ForceView::Spring, time_s, instrument.lag_s, instrument.average_s);
+  CAPTURE(view == ForceView::Spring, time_s, instrument.lag_s, instrument.average_s, instrument.order);
   Coordinates truth = true_values(FrictionLaw::Coulomb);
   truth(kRelaxation) = 0.3;
   truth(kRelaxationTime) = std::log(time_s);
@@ -215,7 +217,7 @@ TEST_CASE("friction that weakens over a vanishing distance is Coulomb friction b
   values(kSlipDistance) = std::sqrt(1e-7);
   const BlockFit weakening = exact(scales_of(FrictionLaw::Weakening, view, instrument, 0.01, false), values);
   for (std::size_t i = 0; i < coulomb.data(0).force.size(); ++i) {
-    CAPTURE(i, instrument.lag_s, instrument.average_s);
+    CAPTURE(i, instrument.lag_s, instrument.average_s, instrument.order);
     // The slip begins later by (6 D)^(1/3), in which the force rises by k V / w_n at most: D is 1e-7 of 15.
     CHECK(weakening.data(0).force[i] == Approx(coulomb.data(0).force[i]).margin(5e-3));
   }

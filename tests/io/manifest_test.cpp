@@ -172,6 +172,12 @@ TEST_CASE("each fault of a manifest is one line with file, line, column, value a
   check_error("id,file,speed_m_per_s,window_s\na,a.csv,1,3:1\n", "bad_window", {"'3:1'", "T0 < T1"});
   check_error("id,file,speed_m_per_s,window_s\na,a.csv,1,3\n", "bad_window", {"'3'", "T0:T1"});
   check_error("id,file,speed_m_per_s,drift\na,a.csv,1,up\n", "unknown_drift", {"'up'", "friction"});
+  for (const char* filter : {"4", "0; 200 Hz", "2.5; 200 Hz", "9; 200 Hz", "2; 0", "2; 3 mm", "; 200 Hz"}) {
+    check_error(std::string("id,file,speed_m_per_s,sensor_filter\na,a.csv,1,") + filter + "\n", "bad_sensor_filter",
+                {"an order from 1 to 8"});
+  }
+  check_error("id,file,speed_m_per_s,sensor_bandwidth_Hz,sensor_filter\na,a.csv,1,500,2; 1 kHz\n", "conflicting_sensor",
+              {"either a bandwidth"});
   check_error("id,file,speed_m_per_s,force_view\na,a.csv,1,top\n", "unknown_force_view", {"'top'", "contact"});
 }
 

@@ -24,9 +24,10 @@ enum class ForceQuantity { Force_N, FrictionCoefficient };
 /// The cause of a trend of the force level over a recording: drift of the sensor adds it to every stick, a change of
 /// the friction does not.
 enum class LevelReading {
-  Open,     ///< not stated, and the data do not determine it: one of the next two
-  Sensor,   ///< drift of the sensor
-  Friction  ///< change of the friction: run-in, a load that changes
+  Open,      ///< not stated, and the data do not determine it: one of the next two
+  Sensor,    ///< drift of the sensor
+  Friction,  ///< change of the friction: run-in, a load that changes
+  None       ///< the user states that there is no trend: what the level changes by is chance
 };
 
 /// A file that was read, identified by the bytes that were parsed.
@@ -62,9 +63,10 @@ struct Conditions {
   ForceView force_view = ForceView::Spring;
   ForceQuantity quantity = ForceQuantity::Force_N;
   std::optional<double> zero_force_N;  ///< sensor reading at no force, already subtracted; absolute forces need it
-  /// Bandwidth of a first-order sensor (-3 dB), in Hz, > 0: the fit of one recording includes the lag, fits of sweeps
-  /// do not.
+  /// Bandwidth of the sensor or corner of its low-pass filter (-3 dB), in Hz, > 0: fits include it.
   std::optional<double> sensor_bandwidth_Hz;
+  /// Order of that Butterworth filter, from 1 (a sensor of first order) to kHighestFilterOrder.
+  std::size_t sensor_filter_order = 1;
   /// Averaging time of each sample in s, >= 0 (0: none). If empty, it is not stated and may be up to one step of the
   /// clock.
   std::optional<double> sensor_average_s;
@@ -81,7 +83,14 @@ struct Conditions {
   std::shared_ptr<const WornTrack> worn_track;   ///< none: no surface was given
   std::string speed_unit = {};  ///< that the speed was given in ("mm/min"): reports show it; empty: m/s
   Labels labels = {};
+
+  /// Returns the time by which the sensor delays a slow ramp, in s, where its bandwidth is stated: 1 / (2 pi f) times
+  /// the coefficient of s in the Butterworth polynomial, 1 / sin(pi / (2 n)). docs/model.md section 7
+  [[nodiscard]] std::optional<double> sensor_lag_s() const;
 };
+
+/// Highest order of the sensor's filter.
+inline constexpr std::size_t kHighestFilterOrder = 8;
 
 /// The origin of the numbers, and what the reader assumed, counted or left out.
 struct Provenance {

@@ -142,9 +142,10 @@ std::optional<FitResult> fit_contact(const Recording& recording, const Segmentat
     result.warnings.push_back({"option_ignored", "--fix and --tier do not apply to a sensor at the contact"});
   }
   if (recording.conditions().sensor_bandwidth_Hz) {
-    result.warnings.push_back({"option_ignored",
-                               "--sensor-bandwidth does not apply to a sensor at the contact: a lag longer than a "
-                               "sample rounds the jumps that are taken here, and w_n and zeta are then wrong"});
+    result.warnings.push_back(
+        {"option_ignored",
+         "--sensor-bandwidth and --sensor-filter do not apply to a sensor at the contact: a lag longer than a "
+         "sample rounds the jumps that are taken here, and w_n and zeta are then wrong"});
   }
   if (options.curve) result.curve = curve_of(recording, *found);
   return result;

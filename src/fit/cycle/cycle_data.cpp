@@ -35,8 +35,7 @@ class Cutter {
         clock_is_even_(recording.clock_is_even()),
         excluded_(excluded),
         hum_(hum) {
-    const auto& bandwidth_Hz = recording.conditions().sensor_bandwidth_Hz;
-    if (bandwidth_Hz) forgotten_s_ = kForgottenLags / (2.0 * std::numbers::pi * *bandwidth_Hz);
+    if (const auto lag_s = recording.conditions().sensor_lag_s()) forgotten_s_ = kForgottenLags * *lag_s;
   }
 
   [[nodiscard]] std::vector<CycleData> cut() const {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "fit/coordinates.hpp"
+#include "fit/observation/sensor.hpp"
 #include "slipfit/core/recording.hpp"
 #include "slipfit/signal/cycles.hpp"
 #include "slipfit/signal/quality.hpp"
@@ -29,13 +30,20 @@ struct Population {
 /// The time of the sensor that a fit solves for, if any.
 enum class FreeTime { None, Lag, Average };
 
-/// Holds the times of a sensor: the lag T of first order and the time W over which it averages; 0 means none.
+/// Holds the times of a sensor: by how much its low-pass filter of some order delays a slow ramp (the lag T of first
+/// order) and the time W over which it averages; 0 means none.
 struct SensorTimes {
   double lag_s = 0.0;
   double average_s = 0.0;
+  std::size_t order = 1;
+
+  [[nodiscard]] Sensor in_tau(double omega_rad_per_s) const {
+    return {omega_rad_per_s * lag_s, omega_rad_per_s * average_s, order};
+  }
 };
 
-/// Returns for how long before or after a slip such a sensor still shows it, in s. For a lag this is the decay to e^-8.
+/// Returns for how long before or after a slip such a sensor still shows it, in s. A filter decays to e^-8:
+/// the slowest pole of a Butterworth response has its delay as time constant.
 inline double shown_beyond_s(const SensorTimes& sensor) {
   return 8.0 * sensor.lag_s + 0.5 * sensor.average_s;
 }
@@ -57,9 +65,10 @@ struct Scales {
   double noise = 1.0;         ///< residuals are divided by it
   double time_begin_s = 0.0;  ///< of the cycles in the fit: the drift polynomial lives on [begin, end]
   double time_end_s = 1.0;
-  ForceView view = ForceView::Spring;  ///< spring or transmitted: what the samples show of a slip
-  double sensor_lag_s = 0.0;      ///< T of a first-order sensor, 1 / (2 pi bandwidth); 0: it shows the force as it is
-  double sensor_average_s = 0.0;  ///< W: each sample is the mean over this time around its time stamp
+  ForceView view = ForceView::Spring;   ///< spring or transmitted: what the samples show of a slip
+  double sensor_lag_s = 0.0;            ///< SensorTimes::lag_s; 0: the sensor shows the force as it is
+  std::size_t sensor_order = 1;         ///< SensorTimes::order
+  double sensor_average_s = 0.0;        ///< W: each sample is the mean over this time around its time stamp
   FreeTime free_time = FreeTime::None;  ///< T or W may be a parameter of the fit, which then gives its value
   double sensor_time_unit_s = 1.0;      ///< of that parameter, (time / unit)^2: what slips show of it is linear in that
   double half_period_s = 1.0;           ///< from the largest to the smallest force of a slip, pi / (w_n b)

@@ -11,7 +11,7 @@
 namespace slipfit::fit {
 
 SensorTimes sensor_of(const Scales& scales, const Coordinates& values) {
-  SensorTimes sensor{scales.sensor_lag_s, scales.sensor_average_s};
+  SensorTimes sensor{scales.sensor_lag_s, scales.sensor_average_s, scales.sensor_order};
   if (scales.free_time == FreeTime::None) return sensor;
   double& time_s = scales.free_time == FreeTime::Lag ? sensor.lag_s : sensor.average_s;
   time_s = scales.sensor_time_unit_s * std::sqrt(values(kSensorTime));
@@ -67,9 +67,7 @@ std::optional<CycleState> CycleModel::state(const Coordinates& shared, const dou
     return motion ? std::optional(CycleState{f, *std::move(motion)}) : std::nullopt;
   }
   if (!(f.z0() + 2.0 * f.zeta > 0.0) || !(std::abs(f.zeta) < 1.0) || !std::isfinite(f.z0())) return std::nullopt;
-  const double w = f.omega_rad_per_s;
-  const bool transmitted = scales_.view == ForceView::Transmitted;
-  return CycleState{f, CoulombCycle(f.z0(), f.zeta, {w * sensor.lag_s, w * sensor.average_s, transmitted})};
+  return CycleState{f, CoulombCycle(f.z0(), f.zeta, sensor.in_tau(f.omega_rad_per_s), scales_.view)};
 }
 
 /// Forms residuals and their Jacobian column by column, as the processor's vectors do it several rows at a time. The

@@ -80,9 +80,8 @@ Scales scales_of(const Recording& recording, const Quality& quality, const Segme
   Scales scales;
   scales.speed_m_per_s = recording.conditions().speed_m_per_s;
   scales.view = recording.conditions().force_view;
-  if (const auto bandwidth_Hz = recording.conditions().sensor_bandwidth_Hz) {
-    scales.sensor_lag_s = 1.0 / (2.0 * std::numbers::pi * *bandwidth_Hz);
-  }
+  scales.sensor_lag_s = recording.conditions().sensor_lag_s().value_or(0.0);
+  scales.sensor_order = recording.conditions().sensor_filter_order;
   scales.sensor_average_s = recording.conditions().sensor_average_s.value_or(0.0);
   scales.half_period_s = std::max(half_period_of(segmentation), 1e-3 * recording.sample_interval_s());
   scales.sensor_time_unit_s = scales.half_period_s;

@@ -143,7 +143,8 @@ TrendFindings find_level_trend(const Recording& recording, const DampedFit& fit)
   // the slope of that off.
   const double fitted_share = result.is_per_cycle ? 1.0 : 0.0;
   result.trend.in_sticks_per_s = (1.0 - fitted_share) * rate;
-  if (!(std::abs(rate) > thresholds::kSureSigmas * error)) return result;
+  result.is_significant = std::abs(rate) > thresholds::kSureSigmas * error;
+  if (!result.is_significant || recording.conditions().drift == LevelReading::None) return result;
   const Interval whole{recording.whole_begin_s(), recording.time_s().back()};
   result.trend.level_range = range_of(levels, whole.low, whole.high, t_quantile(freedom) * error);
   const std::optional<RampDrift> in_ramps = drift_in_ramps(blocks);

@@ -14,6 +14,7 @@ namespace slipfit::fit {
 /// drift of the sensor; a change of the friction is not in it. docs/model.md section 14
 struct TrendFindings {
   LevelTrend trend{};
+  bool is_significant = false;  ///< above thresholds::kSureSigmas standard errors
   bool is_per_cycle = false;    ///< every cycle has its own level: k of the fit is that of friction that changes
   bool mass_is_stated = false;  ///< and gives w_n, which is proportional to the root of k
   double log_k_to_value = 0.0;  ///< from ln k of the fit to that of the reading to report

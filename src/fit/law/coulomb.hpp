@@ -4,14 +4,35 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <vector>
 
 #include "fit/cycle/cycle_data.hpp"
 #include "fit/observation/averaged_slip.hpp"
 #include "fit/observation/sensor.hpp"
+#include "fit/observation/shown_motion.hpp"
 #include "model/phasor.hpp"
 #include "model/slip.hpp"
 
 namespace slipfit::fit {
+
+/// A cycle under Coulomb friction, in its view. The law has no numbers.
+class CoulombMotion {
+ public:
+  static constexpr bool kStraightSticks = true;
+
+  CoulombMotion(const model::Slip& slip, const model::StickLine& after, ForceView view);
+
+  [[nodiscard]] MotionPoint at(double tau) const;
+  [[nodiscard]] MotionPoint integral_to(double tau) const { return force_.integral_to(tau); }
+  [[nodiscard]] double tau_end() const { return slip_.tau_end; }
+  [[nodiscard]] std::vector<model::SlipPart> parts() const;
+
+ private:
+  model::Slip slip_;
+  model::StickLine after_;
+  bool is_transmitted_;
+  AveragedSlip force_;
+};
 
 /// One cycle under Coulomb friction as the sensor shows it, in the units of model/slip.hpp: closed form.
 class CoulombCycle {
@@ -20,12 +41,15 @@ class CoulombCycle {
   static constexpr bool kStraightSticks = true;
 
   /// `z0`: spring force above F_k at the onset. Needs z0 + 2 zeta > 0 and |zeta| < 1.
-  CoulombCycle(double z0, double zeta, const Sensor& sensor)
-      : slip(model::solve_slip(z0, zeta)), after(model::stick_after(slip)), sensor_(sensor) {
+  CoulombCycle(double z0, double zeta, const Sensor& sensor, ForceView view)
+      : slip(model::solve_slip(z0, zeta)),
+        after(model::stick_after(slip)),
+        sensor_(sensor),
+        is_transmitted_(view == ForceView::Transmitted) {
     if (sensor.lag_tau > 0.0) {
-      sensed_.emplace(sensor, slip);
+      filtered_.emplace(CoulombMotion(slip, after, view), sensor);
     } else if (sensor.average_tau > 0.0) {
-      averaged_.emplace(slip, after, sensor.average_tau, sensor.transmitted);
+      averaged_.emplace(slip, after, sensor.average_tau, is_transmitted_);
     }
   }
 
@@ -46,7 +70,10 @@ class CoulombCycle {
     const double reach = 0.5 * sensor_.average_tau;
     if (tau <= -reach) return before_slip(tau);
     if (tau > slip.tau_end + reach && sensor_.lag_tau == 0.0) return after_slip(tau);
-    if (sensed_) return sensed_->at(tau);
+    if (filtered_) {
+      const ShownPoint p = filtered_->at(tau);
+      return {p.z, p.d_z0, p.d_zeta, p.d_tau, p.d_log_omega, p.d_log_average};
+    }
     if (averaged_) return averaged_->at(tau);
     const double decay = std::exp(-slip.zeta * tau);
     return in_slip(tau, decay * std::cos(slip.b * tau), decay * std::sin(slip.b * tau));
@@ -70,7 +97,7 @@ class CoulombCycle {
    public:
     Samples(const CoulombCycle& cycle, double step_tau)
         : cycle_(cycle),
-          turns_evenly_(step_tau > 0.0 && !cycle.sensed_),
+          turns_evenly_(step_tau > 0.0 && !cycle.filtered_),
           step_tau_(step_tau),
           begin_(cycle.slip.zeta, cycle.slip.b, step_tau),
           end_(begin_) {}
@@ -99,12 +126,12 @@ class CoulombCycle {
   /// Returns a point of the slip from c = exp(-zeta tau) cos b tau and bs = exp(-zeta tau) sin b tau.
   [[nodiscard]] Point in_slip(double tau, double c, double bs) const {
     const double s = bs / slip.b;
-    return sensor_.transmitted ? model::transmitted_wave(slip, tau, c, s) : model::slip_wave(slip, tau, c, s);
+    return is_transmitted_ ? model::transmitted_wave(slip, tau, c, s) : model::slip_wave(slip, tau, c, s);
   }
 
-  /// A straight ramp lags by T, and so by kV T.
+  /// A straight ramp lags by the delay of the filter.
   [[nodiscard]] Point as_shown(Point stick) const {
-    if (sensor_.transmitted) {
+    if (is_transmitted_) {
       stick.z += 2.0 * slip.zeta;
       stick.d_zeta += 2.0;
     }
@@ -114,8 +141,9 @@ class CoulombCycle {
   }
 
   Sensor sensor_;
-  std::optional<SensedSlip> sensed_;      ///< where the sensor lags
-  std::optional<AveragedSlip> averaged_;  ///< where it averages, without a lag
+  bool is_transmitted_;
+  std::optional<ShownMotion<CoulombMotion>> filtered_;  ///< where the sensor filters
+  std::optional<AveragedSlip> averaged_;                ///< where it averages, without a filter
 };
 
 }  // namespace slipfit::fit

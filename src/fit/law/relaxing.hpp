@@ -52,7 +52,7 @@ class RelaxingCycle {
     const double time = w * std::exp(values(kRelaxationTime));
     const model::RelaxingSlip::Times times{time, scales.relaxing->slip, scales.relaxing->period};
     model::RelaxingSlip slip(z0, zeta, share, times, scales.view);
-    return RelaxingCycle(std::move(slip), time, {w * sensor.lag_s, w * sensor.average_s});
+    return RelaxingCycle(std::move(slip), time, sensor.in_tau(w));
   }
 
   [[nodiscard]] double tau_end() const { return motion().tau_end(); }
@@ -87,8 +87,8 @@ class RelaxingCycle {
   };
 
  private:
-  RelaxingCycle(model::RelaxingSlip slip, double time, const SensorTimes& in_tau)
-      : shown_(RelaxingMotion(std::move(slip)), in_tau.lag_s, in_tau.average_s), time_(time) {}
+  RelaxingCycle(model::RelaxingSlip slip, double time, const Sensor& sensor)
+      : shown_(RelaxingMotion(std::move(slip)), sensor), time_(time) {}
 
   [[nodiscard]] const RelaxingMotion& motion() const { return shown_.motion(); }
 

@@ -58,10 +58,9 @@ class WeakeningCycle {
     WeakeningCycle cycle({z0, zeta, distance, scales.view});
     cycle.distance_ = distance;
     cycle.by_root_ = 2.0 * unit * root;
-    cycle.average_ = omega_rad_per_s * sensor.average_s;
-    if (sensor.lag_s > 0.0) {
-      cycle.lagged_.emplace(WeakeningMotion(cycle.slip_), omega_rad_per_s * sensor.lag_s, cycle.average_);
-    }
+    const Sensor in_tau = sensor.in_tau(omega_rad_per_s);
+    cycle.average_ = in_tau.average_tau;
+    if (in_tau.lag_tau > 0.0) cycle.lagged_.emplace(WeakeningMotion(cycle.slip_), in_tau);
     return cycle;
   }
 

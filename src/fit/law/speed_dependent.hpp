@@ -73,8 +73,7 @@ class SpeedDependentCycle {
     auto track = model::VelocityTrack::solve(z0, values(kDamping), law);
     if (!track) return std::nullopt;
     const double omega_rad_per_s = std::exp(values(kLogFrequency));
-    SpeedDependentCycle cycle({SpeedDependentMotion(*std::move(track), scales.view), omega_rad_per_s * sensor.lag_s,
-                               omega_rad_per_s * sensor.average_s});
+    SpeedDependentCycle cycle({SpeedDependentMotion(*std::move(track), scales.view), sensor.in_tau(omega_rad_per_s)});
     cycle.by_slope_ = slope_unit * ratio.value;
     cycle.by_rate_ = slope_unit * values(kFrictionSlope) * ratio.derivative;
     cycle.rate_unit_ = rate_unit;

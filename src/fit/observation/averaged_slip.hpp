@@ -1,5 +1,6 @@
 #pragma once
 
+#include "fit/observation/filter_response.hpp"
 #include "model/phasor.hpp"
 #include "model/slip.hpp"
 
@@ -14,6 +15,12 @@ class AveragedSlip {
 
   /// Returns the force that the instrument shows, at any tau.
   [[nodiscard]] model::WavePoint at(double tau) const;
+
+  /// Returns the integral of the force itself from the onset to tau.
+  [[nodiscard]] MotionPoint integral_to(double tau) const {
+    const Force force = force_at(tau);
+    return {force.integral, force.z, force.d_z0, force.d_zeta};
+  }
 
   /// Returns the same force from the slip's phasors where the average begins and ends.
   [[nodiscard]] model::WavePoint at(double tau, const model::Phasor& begin, const model::Phasor& end) const {

@@ -48,6 +48,12 @@ void state_trend(const TrendFindings& trend, const Conditions& conditions, Findi
         fmt::format("a mean: the force level changes by {:.3g}{} over the recording", range->high - range->low, unit);
   }
   findings.level_trend = trend.trend;
+  if (trend.is_significant && conditions.drift == LevelReading::None) {
+    findings.warnings.push_back(
+        {"level_trend", fmt::format("the force level {}, although no trend is stated: k and the friction forces are "
+                                    "those of the recording as it is",
+                                    words_for_rate(trend.trend, unit))});
+  }
   if (of_stiffness.empty() && findings.level_doubt.empty()) return;
   std::string message =
       fmt::format("the force level {}: {}", words_for_rate(trend.trend, unit), words_for(trend.trend.reading));

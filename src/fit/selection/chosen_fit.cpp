@@ -26,7 +26,7 @@ Chosen with_weakening(Chosen chosen, const FitInput& input, std::optional<Tier> 
   if (candidate.chosen) {
     for (Candidate& other : chosen.candidates) other.chosen = false;
     if (trial.fit) {
-      trial.fit->law_doubt = doubt;
+      if (!doubt.empty()) trial.fit->law_doubt = doubt;
       chosen.fits = {fit_sawtooth(*trial.fit), std::nullopt, *std::move(trial.fit)};
       chosen.resolution = resolution_of(input.recording, chosen.fits);
       const bool is_negative = chosen.fits.damped.blocks.parameters.values(kDamping) < 0.0;

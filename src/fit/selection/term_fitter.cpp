@@ -7,6 +7,7 @@
 #include <memory>
 #include <utility>
 
+#include "core/filter_delay.hpp"
 #include "core/fit_thresholds.hpp"
 #include "core/thresholds.hpp"
 #include "fit/cycle/start.hpp"
@@ -33,6 +34,10 @@ constexpr std::array kWeakenings{0.05, 0.2, 0.45, 0.75};
 constexpr std::array kWeakeningsWithAverage{0.1, 0.45};
 /// Length of the rise after slips, in that of the plain fit: behind an average it looks longer.
 constexpr std::array kRiseLengths{1.0, 0.5};
+
+/// Orders of the filters that bracket those of amplifiers and loggers, and their corner over w_n to begin with.
+constexpr std::array<std::size_t, 2> kFilterOrders{2, 4};
+constexpr double kFilterCorner = 3.0;
 
 constexpr int kRiseStarts = 6;
 constexpr double kShortestRise = 0.02;  // of a stick
@@ -187,6 +192,27 @@ double TermFitter::least_with_lag(const Minimum& near) const {
     if (lag) least = std::min(least, sum_of_squares(*lag));
   }
   return least;
+}
+
+std::optional<DampedFit> TermFitter::behind_filter(const BlockFit& other) const {
+  std::optional<Minimum> best;
+  for (const std::size_t order : kFilterOrders) {
+    Scales scales = scales_of({}, input_.recording.conditions().sensor_average_s.value_or(0.0));
+    const double omega_rad_per_s = std::exp(plain_.blocks.parameters.values(kLogFrequency));
+    scales.sensor_lag_s = butterworth_delay(order) / (kFilterCorner * omega_rad_per_s);
+    scales.sensor_order = order;
+    scales.free_time = FreeTime::Lag;
+    BlockFit start = started(BlockFit(few_, scales), plain_.blocks.parameters.values);
+    if (!solve_own(start)) continue;
+    std::optional<BlockFit> blocks = roughly_settled(std::move(start), held_, kDescentTolerance);
+    if (!blocks) continue;
+    const double sum = sum_of_squares(*blocks);
+    if (!best || sum < best->sum_of_squares) best = Minimum{*std::move(blocks), sum};
+  }
+  if (best) best = near(best->blocks);
+  const std::optional<Minimum> rival = near(other);
+  if (!best || !rival || gain_on_all(rival->sum_of_squares, best->sum_of_squares) > kRuledOut) return std::nullopt;
+  return fit(best->blocks);
 }
 
 double TermFitter::gain_on_some(double better, double other) const {
@@ -356,6 +382,7 @@ std::optional<BlockFit> TermFitter::solved(const Cycles& cycles, const BlockFit&
   }
   Scales scales = near.scales();
   scales.sensor_average_s = near.sensor().average_s;
+  scales.sensor_lag_s = near.sensor().lag_s;
   BlockFit blocks = started(BlockFit(cycles, scales).with_level(near.level(), scales), near.parameters.values);
   blocks.parameters.level = near.parameters.level;
   if (!solve_own(blocks)) return std::nullopt;

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "core/filter_delay.hpp"
 #include "core/fit_thresholds.hpp"
 #include "core/thresholds.hpp"
 #include "fit/inference/misfit.hpp"
@@ -60,6 +62,7 @@ Candidate judged(Candidate candidate, const DampedFit& fit, const DampedFit& cou
   return candidate;
 }
 
+constexpr double kFilterReach = 3.0;  // of 1 / w_n: a filter of fourth order at 3 w_n decays to e^-3
 constexpr double kHopeful = 1.1 * thresholds::kHalvedStack;
 
 /// False where the cycles that compare the terms show that this minimum will not be taken in place of Coulomb friction:
@@ -178,6 +181,26 @@ WeakeningTrial with_both(WeakeningTrial trial, const FitInput& input, const Term
   return trial;
 }
 
+/// The friction that weakens beside a low-pass filter of the instrument that explains the slips as well: it delays and
+/// skews them as a slow onset does, and only a stated filter is known. Intervals then include both.
+WeakeningTrial beside_filter(WeakeningTrial trial, const FitInput& input, const DampedFit& coulomb) {
+  if (!trial.fit || input.recording.conditions().sensor_bandwidth_Hz) return trial;
+  const double omega_rad_per_s = std::exp(coulomb.blocks.parameters.values(kLogFrequency));
+  const auto fitter = TermFitter::create(input, coulomb, kFilterReach / omega_rad_per_s);
+  const std::optional<DampedFit> filter = fitter ? fitter->behind_filter(trial.fit->blocks) : std::nullopt;
+  if (!filter || !has_slips_of_the_model(*filter)) return trial;
+  const double by_parameters = trial.fit->average ? -2.0 : 0.0;  // W is one more
+  if (gain_on_same_samples(*trial.fit, *filter) + 2.0 + by_parameters > thresholds::kTierPrice) return trial;
+  const std::size_t order = filter->blocks.scales().sensor_order;
+  const double corner_Hz = butterworth_delay(order) / (2.0 * std::numbers::pi * filter->blocks.sensor().lag_s);
+  trial.fit = beside_rival(*std::move(trial.fit), *filter);
+  trial.fit->law_doubt = fmt::format(
+      "a low-pass filter of the instrument (order {}, {:.2g} Hz) explains the slips as well as friction that "
+      "weakens over a slip distance; --sensor-filter states one",
+      order, corner_Hz);
+  return trial;
+}
+
 }  // namespace
 
 bool may_weaken(const FitInput& input, const DampedFit& coulomb) {
@@ -211,7 +234,8 @@ WeakeningTrial try_weakening(const FitInput& input, const DampedFit& coulomb, st
     trial.candidate.reason =
         "no slip distance between 0 and (F_s - F_k) / k halves what the slips of Coulomb friction miss";
   }
-  return fitter ? with_both(std::move(trial), input, *fitter, coulomb) : std::move(trial);
+  if (fitter) trial = with_both(std::move(trial), input, *fitter, coulomb);
+  return trial.candidate.chosen ? beside_filter(std::move(trial), input, coulomb) : std::move(trial);
 }
 
 }  // namespace slipfit::fit

@@ -172,9 +172,9 @@ bool is_blunted(const Source& source) {
   const Parameter* const average = fit->find(ParameterId::SensorAverage);
   if (average != nullptr && average->estimate.value != 0.0) return true;
   const Parameter* const omega = fit->find(ParameterId::NaturalFrequency);
-  const std::optional<double>& bandwidth_Hz = source.recording.conditions().sensor_bandwidth_Hz;
-  if (!bandwidth_Hz || omega == nullptr || !omega->estimate.value) return false;
-  return *omega->estimate.value > kVisibleLag * 2.0 * std::numbers::pi * *bandwidth_Hz;
+  const std::optional<double> lag_s = source.recording.conditions().sensor_lag_s();
+  if (!lag_s || omega == nullptr || !omega->estimate.value) return false;
+  return *omega->estimate.value * *lag_s > kVisibleLag;
 }
 
 std::string reason_for_none(const Source& source, const std::vector<Point>& pairs) {

@@ -1,0 +1,165 @@
+#include "fit/observation/filter_response.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/filter_delay.hpp"
+
+namespace slipfit::fit {
+namespace {
+
+using Complex = std::complex<double>;
+
+/// q times the integral over x from 0 to 1 of exp(-q (1 - x)) x^j, for j up to N - 1: the response to x^j.
+template <std::size_t N>
+std::array<Complex, N> moments(const Complex& q) {
+  std::array<Complex, N> moment{};
+  // Upward, a step multiplies the error by j / q; downward by q / j.
+  if (std::abs(q) >= 0.5 * static_cast<double>(N)) {
+    moment[0] = 1.0 - std::exp(-q);
+    for (std::size_t j = 1; j < N; ++j) moment[j] = 1.0 - static_cast<double>(j) / q * moment[j - 1];
+    return moment;
+  }
+  // The series for the last one, and downward from it.
+  constexpr int kMostTerms = 80;       // 16^80 exp(-16) / 80! is below round-off
+  constexpr double kRounding = 1e-17;  // of the moments of low order, which are of the size of q
+  Complex power = q * std::exp(-q);
+  const double size = std::abs(q);
+  const double least = kRounding * std::abs(power);
+  double bound = std::abs(power);  // of the next term
+  for (int n = 0; n < kMostTerms && (bound > least || n < size); ++n) {
+    moment[N - 1] += power * (1.0 / (n + static_cast<double>(N)));
+    const double by_order = 1.0 / (n + 1.0);
+    power *= q * by_order;
+    bound *= size * by_order;
+  }
+  for (std::size_t j = N - 1; j > 0; --j) moment[j - 1] = (1.0 - moment[j]) * q / static_cast<double>(j);
+  return moment;
+}
+
+}  // namespace
+
+std::vector<FilterPole> butterworth_poles(std::size_t order, double delay_tau) {
+  const auto n = static_cast<double>(order);
+  const double corner = butterworth_delay(order) / delay_tau;
+  std::vector<Complex> kappas;
+  for (std::size_t k = 0; k < order; ++k) {
+    const double angle = std::numbers::pi * ((2.0 * static_cast<double>(k) + 1.0) / (2.0 * n) - 0.5);
+    kappas.push_back(std::polar(corner, angle));
+  }
+  std::vector<FilterPole> poles;
+  for (std::size_t k = order / 2; k < order; ++k) {  // the lower half are the conjugates
+    const bool is_real = order % 2 == 1 && k == order / 2;
+    const Complex kappa = is_real ? Complex(corner) : kappas[k];
+    Complex share = is_real ? 1.0 : 2.0;  // partial fractions of the product of kappa / (s + kappa)
+    for (std::size_t i = 0; i < order; ++i) {
+      if (i != k) share *= kappas[i] / (kappas[i] - kappa);
+    }
+    poles.push_back({kappa, is_real ? Complex(share.real()) : share});
+  }
+  return poles;
+}
+
+FilterResponse::FilterResponse(const MotionPoint& onset, const MotionPoint& delayed,
+                               const std::vector<model::SlipPart>& parts, std::size_t order, double delay_tau)
+    : tau_end_(parts.back().begin + parts.back().length), delay_tau_(delay_tau), parts_(parts) {
+  const Column at_onset = column_of(onset);
+  const Column before = column_of(delayed);
+  for (const FilterPole& pole : butterworth_poles(order, delay_tau)) {
+    const Complex lag = 1.0 / pole.kappa;
+    memory_delay_tau_ += (pole.share * lag * lag).real() / delay_tau;
+    Response now;
+    for (std::size_t c = 0; c < kColumns; ++c) now.shown[c] = at_onset[c] - lag / delay_tau * (at_onset[c] - before[c]);
+    now.d_log_omega = -lag * delayed.d_tau;
+    Channel channel{pole, {now}};
+    for (const model::SlipPart& part : parts) {
+      now = response(pole.kappa, part, now, part.length);
+      channel.begin.push_back(now);
+    }
+    channels_.push_back(std::move(channel));
+  }
+}
+
+FilterResponse::Response FilterResponse::response(const Complex& kappa, const model::SlipPart& part,
+                                                  const Response& begin, double time) {
+  constexpr std::size_t kTerms = model::kSeriesOrder + 1;
+  const Complex q = kappa * time;
+  const std::array<Complex, kTerms + 1> moment = moments<kTerms + 1>(q);
+  const Complex decay = std::exp(-q);
+  Response response;
+  for (std::size_t c = 0; c < kColumns; ++c) response.shown[c] = decay * begin.shown[c];
+  response.d_log_omega = decay * (begin.d_log_omega + q * begin.shown[0]);
+  double power = 1.0;
+  for (std::size_t j = 0; j < kTerms; ++j) {
+    const auto& terms = part.terms[j];
+    const Complex weight = power * moment[j];
+    for (std::size_t c = 0; c < kColumns; ++c) response.shown[c] += terms[c] * weight;
+    // kappa, and with it q, is proportional to 1 / w_n: less q times the derivative of the moment.
+    response.d_log_omega -= terms[0] * power * (moment[j] - q * moment[j] + q * moment[j + 1]);
+    power *= time;
+  }
+  return response;
+}
+
+FilterResponse::Response FilterResponse::at(const Channel& channel, const MotionPoint& motion, double tau) const {
+  const Complex& kappa = channel.pole.kappa;
+  if (tau < tau_end_) {
+    const auto after = std::upper_bound(parts_.begin(), parts_.end(), tau,
+                                        [](double time, const model::SlipPart& part) { return time < part.begin; });
+    const auto index = static_cast<std::size_t>(after - parts_.begin()) - 1;
+    return response(kappa, parts_[index], channel.begin[index], tau - parts_[index].begin);
+  }
+  const Response& end = channel.begin.back();
+  const double since = tau - tau_end_;
+  const Complex decay = std::exp(-kappa * since);
+  const Complex lag = 1.0 / kappa;
+  Response response{column_of(motion), 0.0};
+  // The line of the stick at the end of the slip.
+  Column line = response.shown;
+  line[0] -= since;
+  for (std::size_t c = 0; c < kColumns; ++c) response.shown[c] += decay * (end.shown[c] - line[c]);
+  response.shown[0] += lag * (decay - 1.0);
+  response.d_log_omega = decay * (end.d_log_omega + lag + kappa * since * (end.shown[0] - line[0] + lag)) - lag;
+  return response;
+}
+
+namespace {
+
+/// Adds what a pole shows times a weight.
+template <class Column>
+void add(const std::complex<double>& weight, const Column& shown, const std::complex<double>& d_log_omega,
+         ShownPoint& sum) {
+  const auto real = [&weight](const std::complex<double>& value) { return (weight * value).real(); };
+  sum.z += real(shown[0]);
+  sum.d_z0 += real(shown[1]);
+  sum.d_zeta += real(shown[2]);
+  sum.d_law[0] += real(shown[3]);
+  sum.d_law[1] += real(shown[4]);
+  sum.d_log_omega += real(d_log_omega);
+}
+
+}  // namespace
+
+ShownPoint FilterResponse::at(const MotionPoint& motion, double tau) const {
+  ShownPoint sum;
+  for (const Channel& channel : channels_) {
+    const Response y = at(channel, motion, tau);
+    add(channel.pole.share, y.shown, y.d_log_omega, sum);
+    sum.d_tau += (channel.pole.share * channel.pole.kappa * (motion.z - y.shown[0])).real();
+  }
+  return sum;
+}
+
+ShownPoint FilterResponse::memory_at(const MotionPoint& motion, double tau) const {
+  ShownPoint sum;
+  for (const Channel& channel : channels_) {
+    const Response y = at(channel, motion, tau);
+    // y' = kappa (z - y) makes the integral of y that of z less y / kappa; 1 / kappa is proportional to w_n.
+    add(channel.pole.share / channel.pole.kappa, y.shown, y.d_log_omega + y.shown[0], sum);
+    sum.d_tau += (channel.pole.share * (motion.z - y.shown[0])).real();
+  }
+  return sum;
+}
+
+}  // namespace slipfit::fit
