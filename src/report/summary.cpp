@@ -47,11 +47,11 @@ class Screen {
 
   explicit Screen(std::string headline) : headline_(std::move(headline)) {}
 
+  /// All rows are added before `number_notes`.
   void add_row(std::string_view label, const EstimateRow& row, std::string status, const std::string& note) {
-    if (!note.empty() && status != name_of(ParameterStatus::Identified)) {
-      if (const auto number = footnote(note)) status += fmt::format(" ({})", *number);
-    }
+    const bool is_noted = status != name_of(ParameterStatus::Identified);
     rows_.push_back({std::string(label), value_text(row), row.interval, std::move(status)});
+    notes_of_rows_.push_back(is_noted ? note : std::string());
   }
   void add_parameter(const Parameter& parameter) {
     const ParameterInfo& known = info(parameter.id);
@@ -60,10 +60,21 @@ class Screen {
     if (row.value == "-" && !row.interval.empty() && !row.unit.empty()) row.interval += " " + row.unit;
     add_row(known.words, row, std::string(name_of(parameter.status)), parameter.estimate.note);
   }
-  /// "(1)" where a footnote has this note, else the note itself.
+  /// Numbers the notes of the rows, of which one that continues another one has a footnote for the rest alone.
+  void number_notes() {
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      for (const std::string& part : parts_of(notes_of_rows_[i])) {
+        if (notes_.size() < kMostFootnotes && std::ranges::find(notes_, part) == notes_.end()) notes_.push_back(part);
+      }
+    }
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      if (const std::string numbers = numbers_of(notes_of_rows_[i]); !numbers.empty()) rows_[i].back() += " " + numbers;
+    }
+  }
+  /// "(1)" where footnotes have this note, else the note itself.
   [[nodiscard]] std::string reference(const std::string& note) const {
-    const auto found = std::ranges::find(notes_, note);
-    return found == notes_.end() ? note : fmt::format("({})", found - notes_.begin() + 1);
+    const std::string numbers = numbers_of(note);
+    return numbers.empty() ? note : numbers;
   }
   /// Adds a measured quantity; nothing if its value is not known.
   void add_measured(const Quantity& quantity, const Estimate& estimate, const Conditions& conditions) {
@@ -76,12 +87,23 @@ class Screen {
   [[nodiscard]] std::string text() const;
 
  private:
-  std::optional<std::size_t> footnote(const std::string& note) {
-    const auto found = std::ranges::find(notes_, note);
-    if (found != notes_.end()) return static_cast<std::size_t>(found - notes_.begin()) + 1;
-    if (notes_.size() == kMostFootnotes) return std::nullopt;
-    notes_.push_back(note);
-    return notes_.size();
+  /// Returns the note, or the note of another row with which it begins and the rest.
+  [[nodiscard]] std::vector<std::string> parts_of(const std::string& note) const {
+    if (note.empty()) return {};
+    for (const std::string& other : notes_of_rows_) {
+      if (!other.empty() && note.starts_with(other + "; ")) return {other, note.substr(other.size() + 2)};
+    }
+    return {note};
+  }
+  /// "(1, 2)": the footnotes that have this note; empty where one is missing.
+  [[nodiscard]] std::string numbers_of(const std::string& note) const {
+    std::string numbers;
+    for (const std::string& part : parts_of(note)) {
+      const auto found = std::ranges::find(notes_, part);
+      if (found == notes_.end()) return {};
+      numbers += fmt::format("{}{}", numbers.empty() ? "" : ", ", found - notes_.begin() + 1);
+    }
+    return numbers.empty() ? numbers : "(" + numbers + ")";
   }
   [[nodiscard]] bool has_footnote(const std::string& message) const {
     return std::ranges::any_of(notes_,
@@ -90,8 +112,9 @@ class Screen {
 
   std::string headline_;
   std::vector<Row> rows_;
+  std::vector<std::string> notes_of_rows_;  ///< empty: none
   std::vector<Row> recordings_;
-  std::vector<std::string> notes_;
+  std::vector<std::string> notes_;  ///< footnotes, in their order
   std::vector<std::vector<std::string>> below_;
   std::vector<std::vector<std::string>> warnings_;
   std::size_t warnings_left_out_ = 0;
@@ -124,7 +147,7 @@ std::string Screen::text() const {
     lines += rows.size() + 2;
   };
   put_table({"", "value", "95 % interval", "status"}, rows_);
-  put_table({"recording", "speed", std::string(kMeasured.front().words), "predicted without it"}, recordings_);
+  put_table({"recording", "speed", std::string(kMeasured.front().words), "predicted from the others"}, recordings_);
   if (!notes_.empty() || !below_.empty()) put("");
   for (std::size_t i = 0; i < notes_.size(); ++i) {
     for (const std::string& line : wrapped(fmt::format("  ({}) ", i + 1), sentence(printable(notes_[i])))) put(line);
@@ -277,6 +300,7 @@ std::string to_summary(const Recording& recording, const Analysis& analysis) {
   if (analysis.motion != MotionClass::StickSlip && !analysis.motion_reason.empty())
     screen.add_text(sentence("Reason: " + printable(analysis.motion_reason)));
   if (!analysis.fit && has_slips) add_cycles(screen, analysis.cycles, conditions);
+  screen.number_notes();
   if (has_fit) add_below_table(screen, *analysis.fit, conditions.quantity);
   if (const std::string facts = facts_text(analysis.warnings); !facts.empty()) screen.add_text(facts);
   screen.add_warnings(analysis.warnings);
@@ -299,6 +323,7 @@ std::string to_summary(std::span<const SweepEntry> entries, const SweepAnalysis&
     screen.add_row(quantity.words, estimate_row(quantity, critical, entries.front().recording.conditions()), "derived",
                    {});
   }
+  screen.number_notes();
   add_below_table(screen, sweep.fit->result, ForceQuantity::Force_N);
   if (const std::string facts = facts_text(sweep.warnings); !facts.empty()) screen.add_text(facts);
   for (std::size_t i = 0; i < entries.size() && entries.size() <= kMostListed; ++i) {

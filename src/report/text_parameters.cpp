@@ -115,7 +115,7 @@ namespace {
 std::string recordings_text(std::span<const SweepEntry> entries, const SweepAnalysis& sweep) {
   Table table({Align::Left, Align::Right, Align::Left, Align::Left, Align::Left, Align::Left, Align::Right});
   table.add({"recording", "speed", "shows", "kinetic friction", std::string(kMeasured.front().words),
-             "predicted without it", "off by"});
+             "predicted from the others", "off by"});
   for (std::size_t i = 0; i < entries.size(); ++i) {
     const SweepPoint* point = sweep.fit ? &sweep.fit->points[i] : nullptr;
     const Estimate& measured = sweep.recordings[i].derived.pattern_spacing_m;

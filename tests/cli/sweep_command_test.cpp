@@ -21,7 +21,7 @@ TEST_CASE("a joint fit of a Coulomb sweep states its law in text, document and p
   CHECK(text.exit_code == 0);
   for (const char* const part :
        {"pad: 3 recordings fitted together", "tangential stiffness k", "identified", "slow", "fast",
-        "predicted without it", "Coulomb friction explains the recordings", "critical speed: 4"}) {
+        "predicted from the others", "Coulomb friction explains the recordings", "critical speed: 4"}) {
     CHECK_THAT(text.out, Catch::Contains(part));
   }
   const json document = example.fit({"--group", "pad"});

@@ -36,6 +36,18 @@ TEST_CASE("the summary shows values with units, intervals without a value, and n
   CHECK_THAT(text, Contains("consistent with white noise") && !Contains("1.50"));
 }
 
+TEST_CASE("a note that continues another one is numbered for its rest alone") {
+  slipfit::Analysis analysis = test::full_analysis();
+  std::size_t count = 0;
+  for (slipfit::Parameter& parameter : analysis.fit->parameters) {
+    parameter.status = slipfit::ParameterStatus::Weak;
+    parameter.estimate.note = ++count == 1 ? "the slips are rounded; at a stick time of 1 s" : "the slips are rounded";
+  }
+  const std::string text = summary_of(analysis);
+  CHECK_THAT(text, Contains("weak (1, 2)") && Contains("weak (1)") && !Contains("weak (2)"));
+  CHECK_THAT(text, Contains("(1) the slips are rounded.\n") && Contains("(2) at a stick time of 1 s.\n"));
+}
+
 TEST_CASE("a summary is at most one screen") {
   slipfit::Analysis analysis = test::full_analysis();
   const std::string words = "a long explanation with many words that a reader of the first screen does not need; ";

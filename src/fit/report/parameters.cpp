@@ -207,20 +207,35 @@ class Reporter {
     if (f_.load_response)
       estimate = widened(estimate, f_.load_response->standard_error / (1.0 - f_.load_response->share));
     if (!model_.reload) return add_of_slips(Id::Mass, estimate, doubt);
-    const Jet by_relaxation = instantaneous_stiffness(*model_.reload) / (model_.omega * model_.omega);
-    const Estimate other = f_.intervals.interval_of_one_sign(by_relaxation);
     const std::string why = doubt.empty() ? kRiseOfTimeOrDistance : doubt;
-    add_graded(Id::Mass, spanning(estimate, other), why, why);
+    add_graded(Id::Mass,
+               beside_relaxation(estimate, [this](const Jet& k) { return k / (model_.omega * model_.omega); }), why,
+               why);
+  }
+
+  /// The estimate of a quantity that follows from the stiffness in the slip, with an interval that includes what it is
+  /// where the rise after a slip is the relaxation of the spring.
+  template <class Quantity>
+  [[nodiscard]] Estimate beside_relaxation(const Estimate& estimate, const Quantity& of_stiffness) const {
+    // What relaxes faster than a slip shows as a stiffer slip alone: rubber has a spectrum of times.
+    constexpr double kWithFaster = 4.0 / 3.0;
+    const auto by_relaxation = [&](double factor) {
+      return f_.intervals.interval_of_one_sign(of_stiffness(instantaneous_stiffness(*model_.reload, factor)));
+    };
+    const Estimate seen = spanning(estimate, by_relaxation(1.0));
+    Estimate all = spanning(seen, by_relaxation(kWithFaster));
+    all.value = seen.value;
+    return all;
   }
 
   /// The stiffness that acts in a slip where the rise after it is the relaxation of the spring: the secant of a whole
-  /// stick, with what has relaxed in half a slip. docs/model.md (25a)
-  [[nodiscard]] Jet instantaneous_stiffness(const Reload& reload) const {
+  /// stick, with what has relaxed in half a slip. `factor`: on what relaxes. docs/model.md (25a)
+  [[nodiscard]] Jet instantaneous_stiffness(const Reload& reload, double factor) const {
     constexpr double kMost = 1.0;  // more than a third of the rise hidden in the slip is not foreseen so
     const double path_m = f_.units.speed_m_per_s * f_.units.stick_s;
     const Jet in_slip = 0.5 * std::numbers::pi * f_.units.speed_m_per_s / model_.omega / reload.length_m;
     const Jet regained = reload.force_N * (1.0 - exp(-path_m / reload.length_m)) / path_m;
-    return model_.stiffness + regained * exp(in_slip.a < kMost ? in_slip : Jet(kMost));
+    return model_.stiffness + factor * regained * exp(in_slip.a < kMost ? in_slip : Jet(kMost));
   }
 
   /// Adds an independent relative error to a positive estimate.
@@ -269,6 +284,12 @@ class Reporter {
     const Estimate distance = f_.intervals.interval_of_one_sign(model_.slip_distance);
     const bool tells = relative_error(distance) < thresholds::kTellingError;
     if (!tells) return add_unknown(Id::SlipDistance, "it cannot be distinguished from 0, Coulomb friction");
+    if (model_.reload) {
+      // D_c is what the slip shows of k D_c / (F_s - F_k).
+      const auto of_stiffness = [this](const Jet& k) { return model_.slip_distance * model_.stiffness / k; };
+      const std::string why = slip_doubt().empty() ? kRiseOfTimeOrDistance : slip_doubt();
+      return add_graded(Id::SlipDistance, beside_relaxation(distance, of_stiffness), why, why);
+    }
     const ParameterStatus status = at_one_speed(graded(Id::SlipDistance, distance, slip_doubt()));
     add(Id::SlipDistance, distance, status, status == ParameterStatus::Conditional ? kOneSpeed : slip_note());
   }

@@ -268,7 +268,7 @@ Figure sweep_spacing_figure(const SweepSource& source) {
   SpeedPanel panel(speed_unit_of(source), display_unit("m", typical.estimates.front().value));
   panel.add_curve("joint fit", Colour::Blue, fitted);
   panel.add_markers("measured (V/f)", Colour::Black, Shape::Dot, measured);
-  panel.add_markers("predicted without it", Colour::Vermillion, Shape::Ring, left_out);
+  panel.add_markers("predicted from the others", Colour::Vermillion, Shape::Ring, left_out);
   const Series worn = series_of(
       source, [&source](std::size_t i) { return spacing_on_surface(source.entries[i].recording.conditions()); });
   if (!worn.estimates.empty()) {

@@ -98,13 +98,13 @@ std::string recordings_of(const SweepSource& source) {
   std::vector<std::string> columns{"recording", label_with_unit("#speed", units.speed.unit), "shows"};
   if (has_surface_spacing(source)) columns.push_back(label_with_unit("#spacing on the surface", units.spacing.unit));
   columns.insert(columns.end(), {label_with_unit("#" + std::string(kMeasured.front().words), units.spacing.unit),
-                                 label_with_unit("#predicted without it", units.spacing.unit), "#off by"});
+                                 label_with_unit("#predicted from the others", units.spacing.unit), "#off by"});
   if (source.sweep.fit && source.sweep.fit->result.estimate) {
     columns.insert(columns.end(), {"#k without it", "#F_s \u2212 F_k without it"});
   }
   std::string rows;
   for (std::size_t i = 0; i < source.entries.size(); ++i) rows += recording_row(source, i, units);
-  return section(" class=\"flows\"", "Each recording, predicted without it",
+  return section(" class=\"flows\"", "Each recording, predicted from the others",
                  table(" class=\"plain-table\"", columns, rows));
 }
 
