@@ -83,7 +83,7 @@ Analysis audited(const Recording& recording, Analysis analysis) {
 }
 
 /// The fitted curve counts its samples in the part that slides: converted to samples of the whole recording.
-std::optional<FitResult> told_of_whole(std::optional<FitResult> fit, const Detected& detected) {
+std::optional<FitResult> curve_in_recording_samples(std::optional<FitResult> fit, const Detected& detected) {
   if (!fit) return fit;
   for (CurvePoint& point : fit->curve) point.sample = detected.sample_of(point.sample);
   return fit;
@@ -123,7 +123,7 @@ Analysis conclude(const Detected& detected, Estimates estimates, Classification 
   analysis = audited(recording, std::move(analysis));
   analysis.warnings = collect_warnings({detected, slips, analysis});
   if (analysis.fit) analysis.fit = limited_by(analysis.warnings, *std::move(analysis.fit));
-  analysis.fit = told_of_whole(std::move(analysis.fit), detected);
+  analysis.fit = curve_in_recording_samples(std::move(analysis.fit), detected);
   analysis.timing.frequency_s = detected.seconds + estimates.frequency_s;
   analysis.timing.fit_s = estimates.fit_s;
   return analysis;
@@ -228,9 +228,9 @@ SweepAnalysis analyze_sweep(std::span<const SweepEntry> entries, const FitOption
   FitOptions own;
   own.curve = options.curve;
   for (const SweepEntry& entry : entries) {
-    if (options.tell_step) {
-      options.tell_step("analysing recording " + std::to_string(members.size() + 1) + " of " +
-                        std::to_string(entries.size()));
+    if (options.notify_step) {
+      options.notify_step("analysing recording " + std::to_string(members.size() + 1) + " of " +
+                          std::to_string(entries.size()));
     }
     Member& member = members.emplace_back(analyze_member(entry.recording, own));
     sweep.recordings.push_back(std::move(member.analysis));

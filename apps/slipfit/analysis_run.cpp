@@ -161,7 +161,7 @@ void run_each(const AnalysisArguments& arguments,
   for (const std::string& file : arguments.recording.files) check_outputs(arguments.document.outputs, file);
   const slipfit::ManifestDraft draft = slipfit::draft_manifest(
       {arguments.recording.files.begin(), arguments.recording.files.end()}, read_options_from(arguments.recording));
-  const auto entries = entries_of(draft, arguments.recording, teller(arguments.document));
+  const auto entries = entries_of(draft, arguments.recording, notifier(arguments.document));
   SeveralDocuments documents(entries.size() + draft.skipped.size(), arguments.document.json);
   for (const slipfit::Error& error : draft.skipped) documents.add_failure(ExitCode::BadRecording, error);
   for (const slipfit::ManifestEntry& entry : entries) {

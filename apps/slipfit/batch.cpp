@@ -112,7 +112,7 @@ slipfit::BatchOutcome run_shown(const slipfit::BatchOptions& options, const Batc
   hooks.should_suspend = StopSignals::take_suspension;
   if (!arguments.quiet) {
     hooks.show_progress = [&line](const slipfit::BatchProgress& progress) { line.show(progress); };
-    hooks.tell = say;
+    hooks.notify = say;
   }
   auto outcome = slipfit::run_batch(options, hooks);
   if (!outcome) throw Failure(ExitCode::WrongUsage, outcome.error());
@@ -156,7 +156,7 @@ BatchArguments with_manifest(BatchArguments arguments) {
   }
   DocumentOptions messages;
   messages.quiet = arguments.quiet;
-  arguments.manifest = drafted_manifest({arguments.paths, arguments.out, arguments.recording}, teller(messages));
+  arguments.manifest = drafted_manifest({arguments.paths, arguments.out, arguments.recording}, notifier(messages));
   return arguments;
 }
 

@@ -37,10 +37,10 @@ bool lies_in(const fs::path& file, const fs::path& folder) {
 }
 
 /// Fills the cells; stated values take precedence.
-void fill(slipfit::ManifestDraft& draft, const RecordingArguments& options, const Tell& tell) {
+void fill(slipfit::ManifestDraft& draft, const RecordingArguments& options, const Notify& notify) {
   const slipfit::Conditions stated = entry_from(options).conditions;
   for (slipfit::DraftEntry& entry : draft.entries) {
-    tell_of_replaced(stated, entry, tell);
+    notify_of_replaced(stated, entry, notify);
     if (stated.speed_m_per_s > 0.0) entry.speed_m_per_s = stated.speed_m_per_s;
     if (stated.normal_force_N) entry.normal_force_N = stated.normal_force_N;
   }
@@ -53,7 +53,7 @@ std::string manifest_command(const BatchFolder& folder) {
 }
 
 /// Nothing is begun where nothing could be fitted; of some without a speed the results say so.
-void check_speeds(const slipfit::ManifestDraft& draft, const BatchFolder& folder, const Tell& tell) {
+void check_speeds(const slipfit::ManifestDraft& draft, const BatchFolder& folder, const Notify& notify) {
   const auto without = std::count_if(draft.entries.begin(), draft.entries.end(),
                                      [](const slipfit::DraftEntry& entry) { return !entry.speed_m_per_s; });
   if (without == static_cast<std::ptrdiff_t>(draft.entries.size())) {
@@ -62,7 +62,8 @@ void check_speeds(const slipfit::ManifestDraft& draft, const BatchFolder& folder
                               "manifest ({} --out runs.csv) and fill it in",
                               folder.recordings.front(), manifest_command(folder)));
   }
-  if (without > 0) tell(fmt::format("{} of {} recordings have no speed: give --speed", without, draft.entries.size()));
+  if (without > 0)
+    notify(fmt::format("{} of {} recordings have no speed: give --speed", without, draft.entries.size()));
 }
 
 /// The draft of an earlier run stays what its results are of.
@@ -78,23 +79,23 @@ void check_same(const std::string& file, const std::string& text) {
 
 }  // namespace
 
-std::string drafted_manifest(const BatchFolder& folder, const Tell& tell) {
+std::string drafted_manifest(const BatchFolder& folder, const Notify& notify) {
   const std::vector<slipfit::DraftColumn> columns = columns_from(folder.options);
-  slipfit::ManifestDraft draft = draft_of(folder.recordings, read_options_from(folder.options), tell);
+  slipfit::ManifestDraft draft = draft_of(folder.recordings, read_options_from(folder.options), notify);
   draft.skipped.clear();
   draft = slipfit::writable(std::move(draft));
-  for (const slipfit::Error& error : draft.skipped) tell("left out: " + error.message);
+  for (const slipfit::Error& error : draft.skipped) notify("left out: " + error.message);
   std::erase_if(draft.entries, [&folder](const auto& entry) { return lies_in(entry.file, folder.out); });
   if (draft.entries.empty())
     throw Failure(ExitCode::BadRecording, "no recording found apart from the results in --out");
-  fill(draft, folder.options, tell);
-  check_speeds(draft, folder, tell);
+  fill(draft, folder.options, notify);
+  check_speeds(draft, folder, notify);
   make_folder({"--out", folder.out});
   std::string file = (fs::path(folder.out) / "manifest.csv").string();
   const std::string text = slipfit::to_csv(draft, folder.out, columns);
   check_same(file, text);
   write_file({"--out", file}, text);
-  tell(fmt::format("drafted the manifest '{}' of {} recordings", file, draft.entries.size()));
+  notify(fmt::format("drafted the manifest '{}' of {} recordings", file, draft.entries.size()));
   return file;
 }
 

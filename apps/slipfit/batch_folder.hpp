@@ -15,7 +15,7 @@ struct BatchFolder {
 
 /// Drafts the manifest of the recordings as `slipfit manifest` does, with what the options state, into the folder of
 /// the results; returns its file. Throws Failure.
-std::string drafted_manifest(const BatchFolder& folder, const Tell& tell);
+std::string drafted_manifest(const BatchFolder& folder, const Notify& notify);
 
 /// The columns of a manifest say what these options would. Throws Failure(WrongUsage) where one is given.
 void refuse_recording_options(const RecordingArguments& options);

@@ -79,7 +79,7 @@ void keep_group(const std::string& group, std::vector<ManifestEntry>& entries) {
 }
 
 /// Files and folders of recordings are drafted together, so that --speed may be given once for each.
-Source source_of(const SideArguments& arguments, const Tell& tell) {
+Source source_of(const SideArguments& arguments, const Notify& notify) {
   Source source;
   std::vector<std::string> recordings;
   for (const std::string& path : arguments.paths) {
@@ -98,8 +98,8 @@ Source source_of(const SideArguments& arguments, const Tell& tell) {
     }
   }
   if (!recordings.empty()) {
-    const auto draft = draft_of(recordings, read_options_from(arguments.recording), tell);
-    auto entries = entries_of(draft, arguments.recording, tell);
+    const auto draft = draft_of(recordings, read_options_from(arguments.recording), notify);
+    auto entries = entries_of(draft, arguments.recording, notify);
     if (arguments.group) keep_group(*arguments.group, entries);
     source.entries.insert(source.entries.end(), entries.begin(), entries.end());
   }
@@ -180,9 +180,9 @@ void run(const CompareArguments& arguments) {
   for (const SideArguments* const side : {&side_a, &side_b}) {
     for (const std::string& path : side->paths) check_outputs(arguments.document.outputs, path);
   }
-  const Tell tell = teller(arguments.document);
-  Source a = source_of(side_a, tell);
-  Source b = source_of(side_b, tell);
+  const Notify notify = notifier(arguments.document);
+  Source a = source_of(side_a, notify);
+  Source b = source_of(side_b, notify);
   slipfit::ComparisonOrigin origin;
   origin.command_line = arguments.command_line;
   {

@@ -50,16 +50,16 @@ bool is_manifest(const std::string& file) {
   return slipfit::ManifestReader::open(file).ok();
 }
 
-void tell_of_replaced(const slipfit::Conditions& stated, const slipfit::DraftEntry& drafted, const Tell& tell) {
+void notify_of_replaced(const slipfit::Conditions& stated, const slipfit::DraftEntry& drafted, const Notify& notify) {
   const std::string file = drafted.file.string();
   const double speed_m_per_s = stated.speed_m_per_s;
   if (drafted.speed_m_per_s && speed_m_per_s > 0.0 && differ(speed_m_per_s, *drafted.speed_m_per_s)) {
-    tell(fmt::format("'{}': the file or its name states {:.4g} m/s, but --speed states {:.4g} m/s, which is used", file,
-                     *drafted.speed_m_per_s, speed_m_per_s));
+    notify(fmt::format("'{}': the file or its name states {:.4g} m/s, but --speed states {:.4g} m/s, which is used",
+                       file, *drafted.speed_m_per_s, speed_m_per_s));
   }
   const auto& load_N = stated.normal_force_N;
   if (drafted.normal_force_N && load_N && differ(*load_N, *drafted.normal_force_N)) {
-    tell(
+    notify(
         fmt::format("'{}': the file or its name states a normal force of {:.4g} N, but --normal-force states {:.4g} N, "
                     "which is used",
                     file, *drafted.normal_force_N, *load_N));
@@ -74,18 +74,18 @@ void check_found(const slipfit::ManifestDraft& draft) {
 }
 
 slipfit::ManifestDraft draft_of(const std::vector<std::string>& paths, const slipfit::ReadOptions& options,
-                                const Tell& tell) {
+                                const Notify& notify) {
   slipfit::ManifestDraft draft = slipfit::draft_manifest({paths.begin(), paths.end()}, options);
   for (const slipfit::Error& error : draft.skipped) {
     if (is_named(paths, error)) throw Failure(ExitCode::BadRecording, error);
   }
   check_found(draft);
-  for (const slipfit::Error& error : draft.skipped) tell("left out: " + error.message);
+  for (const slipfit::Error& error : draft.skipped) notify("left out: " + error.message);
   return draft;
 }
 
 std::vector<slipfit::ManifestEntry> entries_of(const slipfit::ManifestDraft& draft, const RecordingArguments& arguments,
-                                               const Tell& tell) {
+                                               const Notify& notify) {
   std::vector<slipfit::ManifestEntry> entries;
   const std::size_t count = draft.entries.size();
   for (std::size_t i = 0; i < count; ++i) {
@@ -93,7 +93,7 @@ std::vector<slipfit::ManifestEntry> entries_of(const slipfit::ManifestDraft& dra
     const std::optional<std::string> stated = speed_for(arguments, i, count);
     const bool is_filled = !stated && drafted.speed_m_per_s;
     slipfit::ManifestEntry entry = entry_at(arguments, is_filled ? fmt::format("{}", *drafted.speed_m_per_s) : stated);
-    tell_of_replaced(entry.conditions, drafted, tell);
+    notify_of_replaced(entry.conditions, drafted, notify);
     entry.id = drafted.id;
     entry.file = drafted.file;
     entry.group = drafted.group;

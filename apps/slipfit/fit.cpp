@@ -84,9 +84,9 @@ SweepArguments sweep_of_files(const FitArguments& arguments, const CLI::App& com
                   fmt::format("{} applies to one recording, but several are fitted together", single));
   }
   const AnalysisArguments& analysis = arguments.analysis;
-  const Tell tell = teller(analysis.document);
-  const auto draft = draft_of(files, read_options_from(analysis.recording), tell);
-  std::vector<slipfit::ManifestEntry> entries = entries_of(draft, analysis.recording, tell);
+  const Notify notify = notifier(analysis.document);
+  const auto draft = draft_of(files, read_options_from(analysis.recording), notify);
+  std::vector<slipfit::ManifestEntry> entries = entries_of(draft, analysis.recording, notify);
   const std::string name = name_of(entries);
   return {{name, analysis.document, analysis.command_line}, {}, std::move(entries)};
 }
@@ -99,7 +99,7 @@ bool is_joint_of_files(const FitArguments& arguments) {
 void fit_each(const FitArguments& arguments, const slipfit::FitOptions& options) {
   run_each(arguments.analysis,
            [&options](const slipfit::Recording& recording) { return slipfit::analyze_and_fit(recording, options); });
-  teller(arguments.analysis.document)(
+  notifier(arguments.analysis.document)(
       "each recording was fitted separately; --joint before the files fits them together with one set of parameters");
 }
 

@@ -22,7 +22,7 @@ struct ManifestArguments {
 };
 
 /// Prints what the user has to fill in or should check.
-void tell_of(const slipfit::ManifestDraft& draft) {
+void notify_of(const slipfit::ManifestDraft& draft) {
   for (const slipfit::Error& error : draft.skipped) say("left out: " + error.message);
   const auto without_speed =
       std::count_if(draft.entries.begin(), draft.entries.end(), [](const auto& entry) { return !entry.speed_m_per_s; });
@@ -35,7 +35,7 @@ void run(const ManifestArguments& arguments) {
   if (arguments.out) check_outputs({output}, "");
   const slipfit::ManifestDraft draft = slipfit::writable(slipfit::draft_manifest(arguments.paths));
   check_found(draft);
-  if (!arguments.quiet) tell_of(draft);
+  if (!arguments.quiet) notify_of(draft);
   const std::filesystem::path folder = std::filesystem::path(arguments.out.value_or("")).parent_path();
   const std::string text = slipfit::to_csv(draft, folder);
   // A terminal gets no format characters of names; a file or a program gets the names as they are.

@@ -190,7 +190,7 @@ void say(const std::string& message) {
   (void)std::fwrite(line.data(), 1, line.size(), stderr);
 }
 
-std::function<void(const std::string&)> teller(const DocumentOptions& options) {
+std::function<void(const std::string&)> notifier(const DocumentOptions& options) {
   if (options.quiet) return [](const std::string&) {};
   return say;
 }

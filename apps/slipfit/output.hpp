@@ -54,7 +54,7 @@ void write_results(const DocumentOptions& options,
 void write_standard_output(const std::string& content);
 
 /// Says messages, but with --quiet.
-std::function<void(const std::string&)> teller(const DocumentOptions& options);
+std::function<void(const std::string&)> notifier(const DocumentOptions& options);
 
 /// A message to standard error, "slipfit: ...", on one line.
 void say(const std::string& message);

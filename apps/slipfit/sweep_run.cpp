@@ -45,7 +45,7 @@ slipfit::SweepAnalysis analyze_with_progress(const std::vector<slipfit::SweepEnt
                                              slipfit::FitOptions options, const DocumentOptions& document) {
   ProgressLine line;
   options.curve = document.has("--report");
-  if (!document.quiet) options.tell_step = [&line](const std::string& step) { line.show(step); };
+  if (!document.quiet) options.notify_step = [&line](const std::string& step) { line.show(step); };
   return slipfit::analyze_sweep(entries, options);
 }
 

@@ -10,7 +10,7 @@ namespace {
 /// What Python hears of a batch. An exception of a callback or of a signal stops the batch and is raised at its end.
 class Listener {
  public:
-  Listener(py::object progress, py::object tell) : progress_(std::move(progress)), tell_(std::move(tell)) {}
+  Listener(py::object progress, py::object notify) : progress_(std::move(progress)), notify_(std::move(notify)) {}
 
   [[nodiscard]] BatchHooks hooks() {
     BatchHooks hooks;
@@ -20,8 +20,8 @@ class Listener {
       return raised_.has_value();
     };
     if (!progress_.is_none()) hooks.show_progress = [this](const BatchProgress& progress) { show(progress); };
-    if (!tell_.is_none()) {
-      hooks.tell = [this](const std::string& message) { guarded([&] { tell_(message); }); };
+    if (!notify_.is_none()) {
+      hooks.notify = [this](const std::string& message) { guarded([&] { notify_(message); }); };
     }
     return hooks;
   }
@@ -48,7 +48,7 @@ class Listener {
   }
 
   py::object progress_;
-  py::object tell_;
+  py::object notify_;
   std::optional<py::error_already_set> raised_;
 };
 
@@ -78,9 +78,9 @@ py::dict counts_of(const BatchProgress& progress) {
   return counts;
 }
 
-py::dict run(const py::dict& asked, const py::object& progress, const py::object& tell) {
+py::dict run(const py::dict& asked, const py::object& progress, const py::object& notify) {
   const BatchOptions options = options_from(asked);
-  Listener listener(progress, tell);
+  Listener listener(progress, notify);
   auto outcome = without_gil([&] { return run_batch(options, listener.hooks()); });
   listener.raise_kept();
   const BatchOutcome done = value_or_raise(std::move(outcome));

@@ -108,7 +108,7 @@ class BeneathHum {
   [[nodiscard]] Estimates better_of(Estimates seen) {
     find_slips(seen.signals);
     const Quality& quality = seen.signals.quality;
-    if (!slips_ || is_hopeless(quality, misfit_of(seen.fit))) return seen;
+    if (!slips_ || should_abort(quality, misfit_of(seen.fit))) return seen;
     std::optional<FitResult> other = fit_recording(recording_, quality, *slips_, options_);
     const double misfit = misfit_of(other);
     if (is_sure_ && !std::isfinite(misfit)) {
@@ -145,7 +145,7 @@ class BeneathHum {
   }
 
   /// No more slips than are tried roughly in no time, and beneath the mains they fit much worse.
-  [[nodiscard]] bool is_hopeless(const Quality& quality, double misfit_seen) const {
+  [[nodiscard]] bool should_abort(const Quality& quality, double misfit_seen) const {
     return slips_->slips.size() <= kFewSlips && std::isfinite(misfit_seen) &&
            rough_misfit_of(recording_, quality, *slips_) > kSure * misfit_seen;
   }
@@ -201,7 +201,7 @@ Estimates estimate(const Detected& detected, const FitOptions& options) {
   Estimates estimates{detected.signals, {}};
   // Named, and so copied: where there is no thread, async begins anew with what it was given.
   const auto spectrum_task = [&] { return frequency_of(recording, detected.signals); };
-  std::future<TimedFrequency> frequency = std::async(beside_caller(), for_other_thread(spectrum_task));
+  std::future<TimedFrequency> frequency = std::async(launch_policy(), for_other_thread(spectrum_task));
   const auto take_frequency = [&] {
     if (!frequency.valid()) return;
     TimedFrequency timed = frequency.get();

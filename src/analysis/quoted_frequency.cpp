@@ -172,8 +172,8 @@ bool is_multiple_of(double line_Hz, const Estimate& slips, double resolution_Hz)
 }
 
 /// Returns the lines of the spectrum that do not belong to the slips.
-std::vector<SuspiciousLine> lines_beside(const Recording& recording, const SpectralFrequency& spectral,
-                                         const Estimate& quoted) {
+std::vector<SuspiciousLine> suspicious_lines_of(const Recording& recording, const SpectralFrequency& spectral,
+                                                const Estimate& quoted) {
   std::vector<SuspiciousLine> lines = spectral.suspicious_lines;
   if (spectral.value_Hz && !is_of_slips(*spectral.value_Hz, quoted)) {
     const char* const reason = quoted.value
@@ -296,7 +296,7 @@ FrequencyReport quote_frequency(const Recording& recording, const Signals& signa
   std::erase_if(report.spectral.suspicious_lines, [&](const SuspiciousLine& line) {
     return is_multiple_of(line.frequency_Hz, report.quoted, 1.0 / recording.duration_s());
   });
-  report.lines = lines_beside(recording, report.spectral, report.quoted);
+  report.lines = suspicious_lines_of(recording, report.spectral, report.quoted);
   return report;
 }
 

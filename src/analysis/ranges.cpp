@@ -14,7 +14,7 @@ namespace {
 Range range_of(const Parameter& parameter, const Conditions& conditions) {
   const ParameterInfo& row = info(parameter.id);
   const bool has_zero = conditions.zero_force_N && parameter.estimate.value.value_or(-1.0) >= 0.0;
-  return row.hangs_on_zero && has_zero ? kNotNegative : row.range;
+  return row.depends_on_sensor_zero && has_zero ? kNotNegative : row.range;
 }
 
 /// One without a value or an interval is unidentified, and its value is withdrawn.

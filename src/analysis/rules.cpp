@@ -63,7 +63,7 @@ Messages contradictions(const Facts& facts) {
   return messages;
 }
 
-Messages lines_beside_slips(const Facts& facts) {
+Messages suspicious_lines(const Facts& facts) {
   Messages messages;
   for (const SuspiciousLine& line : facts.analysis.frequency.lines)
     messages.push_back(fmt::format("line at {:.4g} Hz: {}", line.frequency_Hz, line.reason));
@@ -218,7 +218,7 @@ constexpr auto kRules = std::to_array<Rule>({
                                quality_in(f).impulses == 1 ? "impulse was" : "impulses were"));
      }},
     {"quantised", RuleKind::Fact, quantised},
-    {"suspicious_line", RuleKind::Fact, lines_beside_slips},
+    {"suspicious_line", RuleKind::Fact, suspicious_lines},
     {"level_repeats", RuleKind::Fact, [](const Facts& f) { return proven(f, TestKind::LevelRepeats); }},
     {"hum_fitted", RuleKind::Fact},
     {"part_of_cycles_fitted", RuleKind::Fact},

@@ -47,11 +47,11 @@ std::optional<Apart> furthest(std::span<const SweepEntry> entries, std::vector<A
   const Apart& first = recordings.front();
   const Apart& other = recordings[agreeing == Agreeing::Half ? recordings.size() / 2 : 1];
   const bool beyond = first.errors > thresholds::kLeftOutErrors && std::abs(first.distance) > thresholds::kLeftOutShare;
-  const bool stands_apart = beyond && first.errors > thresholds::kStandsApart * other.errors;
+  const bool is_distinct = beyond && first.errors > thresholds::kDistinctRatio * other.errors;
   // What goes with the speed, without it too, is no fault of one recording.
   const auto others = std::span(recordings).subspan(1);
   const bool is_trend = go_with_speed(entries, recordings) && go_with_speed(entries, others);
-  return stands_apart && !is_trend ? std::optional(first) : std::nullopt;
+  return is_distinct && !is_trend ? std::optional(first) : std::nullopt;
 }
 
 /// Spacing predicted without a recording over the one that it shows.

@@ -27,11 +27,11 @@ Result<std::vector<SweepEntry>> read_sweep(std::span<const ManifestEntry> manife
   std::vector<SweepEntry> entries;
   reading::KeptFile kept;
   for (const ManifestEntry& entry : manifest) {
-    const auto told = [&entry](const Error& error) { return entry.line > 0 ? in_words_of_manifest(error) : error; };
+    const auto worded = [&entry](const Error& error) { return entry.line > 0 ? in_words_of_manifest(error) : error; };
     const auto stated = with_worn_track(entry.conditions, entry.surface);
-    if (!stated) return told(stated.error());
+    if (!stated) return worded(stated.error());
     auto pieces = reading::read_pieces(kept, entry.file, stated.value(), entry.options);
-    if (!pieces) return told(pieces.error());
+    if (!pieces) return worded(pieces.error());
     for (NamedRecording& piece : std::move(pieces).value()) {
       if (auto error = check_joint(piece.recording)) return *std::move(error);
       piece.id = piece.id.empty() ? entry.id : entry.id + " " + piece.id;

@@ -47,22 +47,22 @@ std::size_t prepare_folder(const BatchOptions& options, const WorkList& list, co
   return damaged;
 }
 
-void tell_damaged(const BatchHooks& hooks, std::size_t count, const char* file) {
-  if (count == 0 || !hooks.tell) return;
-  hooks.tell(fmt::format("{} results in {} were changed or damaged and are fitted again", count, file));
+void notify_of_damaged(const BatchHooks& hooks, std::size_t count, const char* file) {
+  if (count == 0 || !hooks.notify) return;
+  hooks.notify(fmt::format("{} results in {} were changed or damaged and are fitted again", count, file));
 }
 
 void report_other_processor(const BatchHooks& hooks, const RunRecord& before, const RunRecord& now) {
-  if (!hooks.tell || before.processor == now.processor) return;
-  hooks.tell(fmt::format("some results were computed on another processor ({}; this one: {}): last digits may differ",
-                         printable(before.processor), now.processor));
+  if (!hooks.notify || before.processor == now.processor) return;
+  hooks.notify(fmt::format("some results were computed on another processor ({}; this one: {}): last digits may differ",
+                           printable(before.processor), now.processor));
 }
 
-void tell_ignored_columns(const BatchOptions& options, const BatchHooks& hooks) {
+void notify_of_ignored_columns(const BatchOptions& options, const BatchHooks& hooks) {
   const auto reader = ManifestReader::open(options.manifest);
-  if (!hooks.tell || !reader || reader.value().ignored_columns().empty()) return;
-  hooks.tell(fmt::format("{}: columns that are not used: {}", printable(options.manifest.string()),
-                         fmt::join(reader.value().ignored_columns(), ", ")));
+  if (!hooks.notify || !reader || reader.value().ignored_columns().empty()) return;
+  hooks.notify(fmt::format("{}: columns that are not used: {}", printable(options.manifest.string()),
+                           fmt::join(reader.value().ignored_columns(), ", ")));
 }
 
 /// Rows are identified by their number, so that the manifest must be the same from the first reading to the last.
@@ -96,11 +96,11 @@ BatchOutcome run_or_throw(const BatchOptions& options, const BatchHooks& hooks) 
   const std::optional<RunRecord> before = continued_record(options, record);
   if (before) report_other_processor(hooks, *before, record);
   if (before) record.processor = processors_of(*before, record);
-  tell_damaged(hooks, prepare_folder(options, list, record, before), kResults);
-  tell_ignored_columns(options, hooks);
+  notify_of_damaged(hooks, prepare_folder(options, list, record, before), kResults);
+  notify_of_ignored_columns(options, hooks);
   ResultLog log(options.folder, list.is_mine.size());
   log.throw_error();
-  tell_damaged(hooks, log.damaged(), kJournal);
+  notify_of_damaged(hooks, log.damaged(), kJournal);
   Run run(options, hooks, list, log);
   run.fit_all();
   close(options, list, run, log, record);

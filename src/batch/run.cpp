@@ -43,10 +43,10 @@ void Run::fit_all() {
       fit_groups(first, std::min(kGroupsAtATime, list_.groups.size() - first));
     }
   } catch (const ThrownError&) {
-    tell_replaced();
+    notify_of_replaced();
     throw;
   }
-  tell_replaced();
+  notify_of_replaced();
 }
 
 void Run::fit_recordings() {
@@ -87,13 +87,13 @@ std::vector<Run::Members> Run::members_of(std::size_t first_group, std::size_t c
   return members;
 }
 
-void Run::tell_replaced() const {
-  if (!hooks_.tell) return;
-  const auto tell = [this](const std::vector<std::string>& ids, const char* what) {
-    if (!ids.empty()) hooks_.tell(fmt::format("{} {} ('{}' first)", ids.size(), what, printable(ids.front())));
+void Run::notify_of_replaced() const {
+  if (!hooks_.notify) return;
+  const auto notify = [this](const std::vector<std::string>& ids, const char* what) {
+    if (!ids.empty()) hooks_.notify(fmt::format("{} {} ('{}' first)", ids.size(), what, printable(ids.front())));
   };
-  tell(replaced_, "results belonged to files that have changed since, and were fitted again");
-  tell(gone_, "recordings cannot be read now; their results are kept");
+  notify(replaced_, "results belonged to files that have changed since, and were fitted again");
+  notify(gone_, "recordings cannot be read now; their results are kept");
 }
 
 BatchProgress Run::progress() const {

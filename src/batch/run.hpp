@@ -41,7 +41,7 @@ class Run {
 
   void fit_recordings();
   /// Says which recordings were replaced, or are gone, since they were fitted.
-  void tell_replaced() const;
+  void notify_of_replaced() const;
   void fit_groups(std::size_t first_group, std::size_t count);
   /// Returns the members of several groups in the order of the work list.
   [[nodiscard]] std::vector<Members> members_of(std::size_t first_group, std::size_t count) const;

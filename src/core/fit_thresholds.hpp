@@ -67,7 +67,7 @@ inline constexpr double kPinningDamping = 0.01;
 
 /// Standard error of zeta, from which on it is not reported. [1; convention: zeta of a slip that shows itself is below
 /// 0.5]
-inline constexpr double kTellingDamping = 0.1;
+inline constexpr double kInformativeDamping = 0.1;
 
 // ## Intervals
 
@@ -114,7 +114,7 @@ inline constexpr double kSlipSamples = 3.5;
 
 /// Relative standard error, above which a bound says more than an interval, and 0 is not excluded. [1; derived: 3
 /// standard errors]
-inline constexpr double kTellingError = 1.0 / 3.0;
+inline constexpr double kInformativeError = 1.0 / 3.0;
 
 /// Share of the variance of an instrument's impulse response for which its unknown shape counts. [1; convention: the
 /// variance is all that counts to second order]
@@ -150,7 +150,7 @@ inline constexpr double kContradictedMass = 1.25;
 
 /// Standard error of ln w_n from which on slips do not determine whether a ring-down is their motion: another mode of
 /// the rig would agree by chance. [1; derived: 3 of them are a factor of 1.6]
-inline constexpr double kTellingFrequency = 0.15;
+inline constexpr double kInformativeFrequency = 0.15;
 
 /// Chance below which static friction that differs between the speeds ages. [1; convention: static friction of polymers
 /// and rubber does]
@@ -178,7 +178,7 @@ inline constexpr double kLeftOutShare = 0.02;
 
 /// The factor by which a recording has to be further away than half of the recordings: if most are far away, the model
 /// lacks something and no recording is wrong. [1; calibrated: as above, four false alarms in 332 sweeps of other seeds]
-inline constexpr double kStandsApart = 8.0;
+inline constexpr double kDistinctRatio = 8.0;
 
 /// Share of the squared distances of the recordings that a line over ln V holds, above which none is named. [1;
 /// derived: one recording apart at an end of four leaves it 0.6]

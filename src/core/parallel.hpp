@@ -29,7 +29,7 @@ inline constexpr std::launch kLaunch = std::launch::async | std::launch::deferre
 void share_processors(std::size_t processes);
 
 /// async or, where one processor is all there is, deferred: the caller then does it when it needs the result.
-[[nodiscard]] inline std::launch beside_caller() {
+[[nodiscard]] inline std::launch launch_policy() {
   return usable_processors() > 1 ? kLaunch : std::launch::deferred;
 }
 

@@ -42,7 +42,7 @@ inline constexpr double kMostlySliding = 0.8;
 
 /// Interval over the long ones (90 % are shorter), and over the time of loading, above which a pause lies between two
 /// slips. [1; convention]
-inline constexpr double kPatience = 2.5;
+inline constexpr double kLongestPauseRatio = 2.5;
 
 /// Step from rest to sliding over how much the force moves while the body slides, above which a run without slips is
 /// cut out. [1; convention]

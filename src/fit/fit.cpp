@@ -57,7 +57,7 @@ FitDiagnostics diagnostics_of(const Recording& recording, const DampedFit& dampe
 }
 
 /// Marks the cycles that were offered to the fit, and warns where these are not all.
-void tell_selection(const fit::OfferedSlips& offered, FitResult& result) {
+void mark_selected_cycles(const fit::OfferedSlips& offered, FitResult& result) {
   std::size_t selected = 0;
   for (std::size_t slip = 0; slip < result.cycles.size(); ++slip) {
     result.cycles[slip].selected = offered.has(slip);
@@ -86,7 +86,7 @@ double recovery_s(const BlockFit& blocks, const CycleState& state) {
 /// The table of all detected cycles, with what the fit says of those that it uses.
 void tabulate(const Recording& recording, const Segmentation& segmentation, const BlockFit& blocks, FitResult& result) {
   result.cycles = fit::detected_cycles(recording, segmentation);
-  tell_selection(fit::offered_slips(recording, segmentation), result);
+  mark_selected_cycles(fit::offered_slips(recording, segmentation), result);
   const std::vector<double> sums_of_squares = blocks.sums_of_squares();
   for (std::size_t c = 0; c < blocks.size(); ++c) {
     const CycleState state = blocks.state(c);
@@ -180,12 +180,12 @@ std::optional<FitResult> fit::fit_unless(const std::function<bool()>& is_other_k
                                          const FitOptions& options) {
   if (recording.conditions().force_view == ForceView::Contact) return fit_contact(recording, segmentation, options);
   const HeldParameters held = held_parameters(options);
-  GiveUp give_up;
+  AbortPredicate should_abort;
   if (is_other_kept) {
-    give_up = [&](const BlockFit& some) { return reduced_chi2(some) > thresholds::kLargeChi2 && is_other_kept(); };
+    should_abort = [&](const BlockFit& some) { return reduced_chi2(some) > thresholds::kLargeChi2 && is_other_kept(); };
   }
   const std::optional<Chosen> chosen_of =
-      choose_with_ring_down({recording, quality, segmentation, held}, options, give_up);
+      choose_with_ring_down({recording, quality, segmentation, held}, options, should_abort);
   if (!chosen_of) return std::nullopt;
   const auto& [fits, resolution, candidates, of_choice] = *chosen_of;
 

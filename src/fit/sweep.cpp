@@ -273,7 +273,7 @@ std::optional<SweepFit> fit_at_once(std::span<const SweepRecording> recordings, 
   SweepData data = fit::prepare_sweep(recordings, options, known);
   if (data.fitted.size() < 2) return std::nullopt;
   data = fit::with_relaxation(std::move(data), recordings, options.held);
-  if (options.tell_step) options.tell_step(fmt::format("fitting {} recordings together", data.fitted.size()));
+  if (options.notify_step) options.notify_step(fmt::format("fitting {} recordings together", data.fitted.size()));
   std::optional<fit::SweepFits> fits = fit::solve_sweep(data, options);
   if (!fits) return std::nullopt;
   fit::ChosenLaw law = fit::choose_law(data, *std::move(fits), options.tier, fit::speed_ratio(recordings));
@@ -295,7 +295,7 @@ std::optional<SweepFit> fit_sweep(std::span<const SweepRecording> recordings, co
   undamped.held.damping_ratio = 0.0;
   std::optional<SweepFit> simpler = fit_at_once(recordings, options.held, undamped, fit::found_average(sweep->result));
   if (!simpler) return sweep;
-  if (!simpler->ring_down_used) fit::tell_open_damping(simpler->result);
+  if (!simpler->ring_down_used) fit::report_open_damping(simpler->result);
   return simpler;
 }
 

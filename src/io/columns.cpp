@@ -66,10 +66,10 @@ GuessedUnit guess_time_unit(const Column& column) {
 Channel time_channel(const Request& request, std::size_t column) {
   const Column& found = request.layout.columns[column];
   const std::string name = describe(request.layout, column);
-  const auto& told = request.options.time_unit;
+  const auto& stated = request.options.time_unit;
   const GuessedUnit guess = guess_time_unit(found);
-  const bool is_guess = !told && found.name.unit.empty();
-  const std::string unit = is_guess ? std::string(guess.unit) : told.value_or(found.name.unit);
+  const bool is_guess = !stated && found.name.unit.empty();
+  const std::string unit = is_guess ? std::string(guess.unit) : stated.value_or(found.name.unit);
   Channel channel{column, 1.0, ForceQuantity::Force_N, fmt::format("Time is {}, a clock (h:min:s).", name)};
   if (found.clocks > found.numbers) {
     channel.is_clock = true;
@@ -80,8 +80,9 @@ Channel time_channel(const Request& request, std::size_t column) {
   channel.scale = scale.value().scale;
   channel.is_clock = is_guess && guess.unit == "d";
   channel.is_unit_assumed = is_guess;
-  channel.sentence = is_guess ? fmt::format("Time is {}, assumed to be in {} ({}).", name, unit, guess.why)
-                              : fmt::format("Time is {}, in {}{}.", name, printable(unit), told ? " (as stated)" : "");
+  channel.sentence = is_guess
+                         ? fmt::format("Time is {}, assumed to be in {} ({}).", name, unit, guess.why)
+                         : fmt::format("Time is {}, in {}{}.", name, printable(unit), stated ? " (as stated)" : "");
   return channel;
 }
 
@@ -241,11 +242,11 @@ Channel without_unit(const Request& request, std::size_t column) {
 /// The unit decides between force, torque and coefficient; without one the name does.
 Channel force_channel(const Request& request, std::size_t column) {
   if (request.options.force_scale) return scaled_channel(request, column, *request.options.force_scale);
-  const bool is_told = request.options.force_unit.has_value();
-  const std::string unit = is_told ? *request.options.force_unit : request.layout.columns[column].name.unit;
+  const bool is_stated = request.options.force_unit.has_value();
+  const std::string unit = is_stated ? *request.options.force_unit : request.layout.columns[column].name.unit;
   if (unit.empty()) return without_unit(request, column);
   const std::string described = describe(request.layout, column);
-  const std::string in_unit = fmt::format("in {}{}", printable(unit), is_told ? " (as stated)" : "");
+  const std::string in_unit = fmt::format("in {}{}", printable(unit), is_stated ? " (as stated)" : "");
   const auto as_force = parse_unit(unit, Dimension::Force);
   if (as_force) {
     return Channel{column, as_force.value().scale, ForceQuantity::Force_N,

@@ -28,22 +28,22 @@ std::string tidy(const std::string& name) {
 
 }  // namespace
 
-ToldByName read_file_name(const std::string& stem) {
+FileNameParts read_file_name(const std::string& stem) {
   static const std::regex speed(
       "(?:[vV]-?)?(\\d+(?:[.,]\\d+)?) ?(nm|um|mm|cm|m)(?:_?per_?|p|[-_/ ])?(s|sec|min)(?![A-Za-z0-9])");
   static const std::regex load("(?:^|[-_ ])(?:[fF]n?-?)?(\\d+(?:[.,]\\d+)?) ?(mN|N|kN|g|kg|gf)(?![A-Za-z0-9])");
   static const std::regex repeat("[-_ ](?:run|rep|test|nr|no)?[-_ ]?\\d{1,3}$");
-  ToldByName told;
-  if (stem.size() > kLongestName) return told;
+  FileNameParts parts;
+  if (stem.size() > kLongestName) return parts;
   std::string rest = stem;
   std::smatch match;
   if (std::regex_search(rest, match, speed)) {
-    told.speed_m_per_s = quantity_in(match, match[2].str() + "/" + match[3].str(), Dimension::Speed);
+    parts.speed_m_per_s = quantity_in(match, match[2].str() + "/" + match[3].str(), Dimension::Speed);
     rest = match.prefix().str() + match.suffix().str();
   }
-  if (std::regex_search(stem, match, load)) told.normal_force_N = quantity_in(match, match[2], Dimension::Force);
-  told.group = tidy(std::regex_replace(tidy(rest), repeat, ""));
-  return told;
+  if (std::regex_search(stem, match, load)) parts.normal_force_N = quantity_in(match, match[2], Dimension::Force);
+  parts.group = tidy(std::regex_replace(tidy(rest), repeat, ""));
+  return parts;
 }
 
 }  // namespace slipfit::reading

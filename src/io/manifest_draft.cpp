@@ -59,18 +59,18 @@ std::string id_part(std::string name) {
 /// One for each recording in a table; `table` is empty where the file is one.
 std::vector<DraftEntry> entries_of(const fs::path& file, const TableInfo& table, const FileInfo& info) {
   const std::string stem = slipfit::printable(stem_of(file));
-  reading::ToldByName told = reading::read_file_name(stem);
+  reading::FileNameParts parts = reading::read_file_name(stem);
   std::string id = stem;
   if (!table.name.empty()) {
     id += "-" + id_part(table.name);
-    const reading::ToldByName own = reading::read_file_name(id_part(table.name));
-    if (own.speed_m_per_s) told.speed_m_per_s = own.speed_m_per_s;
-    if (own.normal_force_N) told.normal_force_N = own.normal_force_N;
+    const reading::FileNameParts own = reading::read_file_name(id_part(table.name));
+    if (own.speed_m_per_s) parts.speed_m_per_s = own.speed_m_per_s;
+    if (own.normal_force_N) parts.normal_force_N = own.normal_force_N;
   }
   const bool are_steps = info.steps.size() > 1 && info.steps.size() <= kMostSteps && !info.is_one_recording;
   std::vector<DraftEntry> entries;
   for (std::size_t i = 0; i < (are_steps ? info.steps.size() : 1); ++i) {
-    DraftEntry entry{id, file, told.speed_m_per_s, told.normal_force_N, told.group, {}};
+    DraftEntry entry{id, file, parts.speed_m_per_s, parts.normal_force_N, parts.group, {}};
     if (!table.name.empty()) {
       entry.sheet = table.options.sheet;
       entry.variable = table.options.variable;

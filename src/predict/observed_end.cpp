@@ -19,14 +19,15 @@ Estimate by_runs(const ObservedEnd& observed, const std::string& why) {
         fmt::format("above {:.4g} m/s, the fastest run, which sticks; the fit gives no upper bound: {}", sticks, why));
   }
   const double slides = *observed.slides_m_per_s;
-  return {std::sqrt(sticks * slides), std::nullopt, Interval{sticks, slides},
-          fmt::format("by the runs: the fastest that sticks and the slowest that does not; the fit does not tell more: "
-                      "{}",
-                      why)};
+  return {
+      std::sqrt(sticks * slides), std::nullopt, Interval{sticks, slides},
+      fmt::format("by the runs: the fastest that sticks and the slowest that does not; the fit does not determine it: "
+                  "{}",
+                  why)};
 }
 
 /// Puts an interval without an upper end into words.
-Estimate told(const Estimate& by_fit) {
+Estimate with_bound_in_words(const Estimate& by_fit) {
   if (by_fit.value || !by_fit.ci95) return by_fit;
   return unknown(fmt::format("above {:.4g} m/s; no upper bound: {}", by_fit.ci95->low, by_fit.note));
 }
@@ -34,7 +35,7 @@ Estimate told(const Estimate& by_fit) {
 }  // namespace
 
 Estimate with_observed_end(const Estimate& by_fit, const ObservedEnd& observed) {
-  if (!observed.sticks_m_per_s) return told(by_fit);
+  if (!observed.sticks_m_per_s) return with_bound_in_words(by_fit);
   if (!by_fit.value && !by_fit.ci95) return by_runs(observed, by_fit.note);
   if (!by_fit.ci95) return by_fit;
   const double sticks = *observed.sticks_m_per_s;
@@ -45,7 +46,7 @@ Estimate with_observed_end(const Estimate& by_fit, const ObservedEnd& observed) 
   both.ci95 = Interval{std::max(by_fit.ci95->low, sticks), std::min(by_fit.ci95->high, slides)};
   if (!both.value && std::isfinite(both.ci95->high)) both.value = std::sqrt(both.ci95->low * both.ci95->high);
   if (both.value) both.value = std::clamp(*both.value, both.ci95->low, both.ci95->high);
-  return told(both);
+  return with_bound_in_words(both);
 }
 
 }  // namespace slipfit

@@ -244,7 +244,7 @@ std::string facts_text(const Warnings& warnings) {
 void add_parameters(Screen& screen, const FitResult& fit, bool zero_is_known) {
   for (const Parameter& parameter : fit.parameters) {
     const bool is_known = parameter.status != ParameterStatus::Unidentified;
-    const bool has_zero = zero_is_known || !info(parameter.id).hangs_on_zero;
+    const bool has_zero = zero_is_known || !info(parameter.id).depends_on_sensor_zero;
     if (is_known && has_zero && is_headline(parameter.id)) screen.add_parameter(parameter);
   }
 }

@@ -41,7 +41,7 @@ double asymmetry_of(const std::vector<SeenFall>& falls) {
 
 /// Falls on either side of which the force rises as quickly are a wave's, where most are sudden; small ones already
 /// where it does on one side.
-void leave_waves(std::vector<SeenFall>& falls, double usual_drop) {
+void remove_waves(std::vector<SeenFall>& falls, double usual_drop) {
   std::vector<double> rises, own_rates;
   for (std::size_t i = 1; i < falls.size(); ++i) {
     rises.push_back(rate(falls[i - 1].trough, falls[i].peak));
@@ -70,7 +70,7 @@ Detection detect_beyond(const Falls& falls, double hysteresis) {
   const auto is_small = [quarter](const SeenFall& fall) { return fall.drop() < quarter; };
   if (std::erase_if(detection.falls, is_small) > 0) detection.drop = median(drops_of(detection.falls));
   const std::size_t counted = detection.falls.size();
-  leave_waves(detection.falls, detection.drop);
+  remove_waves(detection.falls, detection.drop);
   if (detection.falls.size() < counted) detection.drop = median(drops_of(detection.falls));
   detection.asymmetry = asymmetry_of(detection.falls);
   return detection;
@@ -87,12 +87,12 @@ double score_of(const Detection& detection, double noise) {
   const auto length = static_cast<double>(first.trough.at - first.peak.at);
   if (detection.falls.size() == 1 && static_cast<double>(first.peak.at) < thresholds::kLeastAlone * length) return 0.0;
   constexpr double kClear = 40.0;  // beyond, a larger fall is no better seen
-  const double stands_out = 1.0 / (1.0 / kClear + noise / detection.drop);
+  const double is_prominent = 1.0 / (1.0 / kClear + noise / detection.drop);
   // Rises twice as long as the falls may be those of a wave on a ramp: they say little more than equal ones.
   const double asymmetry = detection.falls.size() == 1 ? 1.0 : std::min(detection.asymmetry, kMostAsymmetry);
   constexpr double kRise = kMostAsymmetry / (kMostAsymmetry - 1.0);
   const double sudden = std::max(std::min(asymmetry, kRise), kRise * (asymmetry - 1.0));
-  return stands_out * std::sqrt(static_cast<double>(detection.falls.size())) * sudden;
+  return is_prominent * std::sqrt(static_cast<double>(detection.falls.size())) * sudden;
 }
 
 /// Falls that were seen, in numbers.

@@ -84,8 +84,8 @@ std::vector<SeenFall> joined(std::vector<SeenFall> falls) {
       result.back().trough = fall.trough;
     }
   }
-  const bool told_apart = median(std::move(sticks)) < thresholds::kRingApart * median(std::move(rings));
-  return told_apart && result.size() >= kFewest ? result : falls;
+  const bool is_separable = median(std::move(sticks)) < thresholds::kRingApart * median(std::move(rings));
+  return is_separable && result.size() >= kFewest ? result : falls;
 }
 
 }  // namespace

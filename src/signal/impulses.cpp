@@ -24,7 +24,7 @@ Side side_of(double a, double b, double c) {
 /// Returns true if `width` samples from i on differ from both sides. The variation of the sides themselves is allowed
 /// for: the step between them (a slip), and the range within the quieter one (a slope, the crest of a wave with few
 /// samples a period).
-bool stands_out(std::span<const double> force, std::size_t i, std::size_t width, double noise_rms) {
+bool is_prominent(std::span<const double> force, std::size_t i, std::size_t width, double noise_rms) {
   const double* after = force.data() + i + width;
   const Side left = side_of(force[i - 1], force[i - 2], force[i - 3]);
   const Side right = side_of(after[0], after[1], after[2]);
@@ -49,9 +49,9 @@ std::vector<bool> find_impulses(std::span<const double> force, double noise_rms)
     }
     if (std::abs(force[i] - force[i - 1]) <= least_step) continue;
     std::size_t width = 0;
-    if (stands_out(force, i, 1, noise_rms)) {
+    if (is_prominent(force, i, 1, noise_rms)) {
       width = 1;
-    } else if (i + 5 < force.size() && stands_out(force, i, 2, noise_rms)) {
+    } else if (i + 5 < force.size() && is_prominent(force, i, 2, noise_rms)) {
       width = 2;
     }
     for (std::size_t k = 0; k < width; ++k) found.push_back(i + k);

@@ -21,7 +21,7 @@ double half_width(double resolution_Hz, double line_Hz) {
 }
 
 /// The median power on both sides of the line, over 16 resolutions.
-double level_beside(std::span<const double> power, double bin_Hz, double resolution_Hz, double line_Hz) {
+double background_level(std::span<const double> power, double bin_Hz, double resolution_Hz, double line_Hz) {
   std::vector<double> beside;
   const double top = static_cast<double>(power.size()) - 1.0;
   const auto collect = [&](double low_Hz, double high_Hz) {
@@ -77,7 +77,8 @@ std::optional<MainsLine> line_at(std::span<const double> power, double bin_Hz, d
   const double offset = peak_offset(power[peak - 1], power[peak], power[peak + 1]);
   const double frequency = (static_cast<double>(peak) + offset) * bin_Hz;
   if (std::abs(frequency - target_Hz) > tolerance) return std::nullopt;
-  if (power[peak] <= prominence(tolerance / resolution_Hz) * level_beside(power, bin_Hz, resolution_Hz, frequency)) {
+  if (power[peak] <=
+      prominence(tolerance / resolution_Hz) * background_level(power, bin_Hz, resolution_Hz, frequency)) {
     return std::nullopt;
   }
   return MainsLine{frequency, 0.0, 1, half_width(resolution_Hz, frequency)};
@@ -124,7 +125,7 @@ std::optional<double> strongest_line(std::span<const double> power, double bin_H
   const auto peak = static_cast<std::size_t>(std::max_element(first, power.end() - 1) - power.begin());
   const double offset = peak_offset(power[peak - 1], power[peak], power[peak + 1]);
   const double frequency_Hz = (static_cast<double>(peak) + offset) * bin_Hz;
-  const double beside = level_beside(power, bin_Hz, resolution_Hz, frequency_Hz);
+  const double beside = background_level(power, bin_Hz, resolution_Hz, frequency_Hz);
   if (power[peak] <= prominence_among(static_cast<double>(power.size())) * beside) return std::nullopt;
   return frequency_Hz;
 }
@@ -156,7 +157,7 @@ std::string describe(const MainsLine& line) {
 }
 
 void flatten(std::vector<double>& power, double bin_Hz, double resolution_Hz, const MainsLine& line) {
-  const double level = level_beside(power, bin_Hz, resolution_Hz, line.frequency_Hz);
+  const double level = background_level(power, bin_Hz, resolution_Hz, line.frequency_Hz);
   const double top = static_cast<double>(power.size()) - 1.0;
   const double low = std::clamp(std::ceil((line.frequency_Hz - line.width_Hz) / bin_Hz), 0.0, top);
   const double high = std::clamp(std::floor((line.frequency_Hz + line.width_Hz) / bin_Hz), 0.0, top);

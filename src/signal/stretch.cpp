@@ -44,8 +44,8 @@ class Train {
   /// Returns true if fall i belongs to the same sliding as the previous one, without a pause between them.
   [[nodiscard]] bool follows(std::size_t i) const {
     const double loading = (peak(i) - trough(i - 1)) / usual_.rise_rate;
-    const double patience = thresholds::kPatience * std::max(usual_.long_interval, loading);
-    return interval(i) < patience;
+    const double longest_pause = thresholds::kLongestPauseRatio * std::max(usual_.long_interval, loading);
+    return interval(i) < longest_pause;
   }
 
  private:

@@ -165,8 +165,8 @@ TEST_CASE("strokes applies to one recording are fitted together, alone and as a 
   CHECK(document["recordings"].size() == 4);
   CHECK(document["repeats"]["frequency_Hz"]["value"].get<double>() == Approx(5.0).epsilon(0.02));
   for (const auto& [name, parameter] : document["parameters"].items()) {
-    const bool hangs_on_speed = name == "friction_difference_N" || name == "damping_ratio";
-    if (hangs_on_speed) CHECK(parameter["status"] != "identified");
+    const bool depends_on_speed = name == "friction_difference_N" || name == "damping_ratio";
+    if (depends_on_speed) CHECK(parameter["status"] != "identified");
   }
   const auto analysis = test::slipfit({"analyze", file, "--speed", "0.01", "--strokes=negative", "--json"});
   REQUIRE(analysis.exit_code == 0);

@@ -38,7 +38,7 @@ TEST_CASE("a process that shares the machine with enough others stays on one thr
   const AllProcessors restored;
   slipfit::share_processors(100000);
   CHECK(slipfit::usable_processors() == 1);
-  CHECK(slipfit::beside_caller() == std::launch::deferred);
+  CHECK(slipfit::launch_policy() == std::launch::deferred);
   const auto self = std::this_thread::get_id();
   std::vector<std::thread::id> threads(50);
   slipfit::for_ranges(threads.size(), 1,

@@ -106,7 +106,7 @@ TEST_CASE("a level that repeats over the path is told by its length, scatter and
     CHECK(*wave.value == Approx(6.0).epsilon(0.02));  // m, at 1 m/s
     CHECK(*wave.p_value < 1e-3);
   }
-  const auto is_told = [](const std::vector<Cycle>& cycles) {
+  const auto is_stated = [](const std::vector<Cycle>& cycles) {
     const std::optional<ShortTest> test = test_level_repeats(cycles, 1.0);
     return test && test->p_value && *test->p_value < 0.05;
   };
@@ -126,8 +126,8 @@ TEST_CASE("a level that repeats over the path is told by its length, scatter and
       walk[i].trough_force = level += scatter(random);
       walk[i].peak_force = walk[i].trough_force + 0.5;
     }
-    of_scatter += is_told(white) ? 1 : 0;
-    of_walk += is_told(walk) ? 1 : 0;
+    of_scatter += is_stated(white) ? 1 : 0;
+    of_walk += is_stated(walk) ? 1 : 0;
   }
   // At most 20 of 400 expected; above 33 once in 100 recordings of this test.
   CHECK(of_scatter <= 33);

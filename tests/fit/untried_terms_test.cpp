@@ -18,7 +18,7 @@ bool is_noisy(const Recording& recording) {
   const Signals& signals = detected.signals;
   const auto fit = fit::draft_damped({detected.recording(), signals.quality, signals.segmentation, {}});
   REQUIRE(fit);
-  return fit::hides_shape(signals.quality.noise_rms, *fit);
+  return fit::noise_exceeds_shape(signals.quality.noise_rms, *fit);
 }
 
 Recording sine(double fifth_harmonic, double noise_rms = 0.0) {

@@ -72,7 +72,7 @@ struct BatchHooks {
   /// Asked as often; if it returns true, the batch and its processes stop until the calling process is continued.
   std::function<bool()> should_suspend;
   std::function<void(const BatchProgress&)> show_progress;
-  std::function<void(const std::string&)> tell;
+  std::function<void(const std::string&)> notify;
 };
 
 enum class BatchEnd { Finished, Stopped };

@@ -20,7 +20,7 @@ struct FitOptions {
   std::optional<RingDown> ring_down{};
   bool curve = false;  ///< fill FitResult::curve (16 bytes a sample)
   /// Called with each step of a fit of several recordings ("fitting without recording 3 of 13"); may be empty.
-  std::function<void(const std::string&)> tell_step{};
+  std::function<void(const std::string&)> notify_step{};
 };
 
 /// The number of recordings in a fit: one, or those of a sweep.

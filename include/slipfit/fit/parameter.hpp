@@ -50,8 +50,8 @@ struct ParameterInfo {
   /// The largest relative standard error of an identified parameter (a quarter of the 95 % interval is compared with
   /// it).
   double identified_below = 0.0;
-  bool can_be_held = false;    ///< by HeldParameters
-  bool hangs_on_zero = false;  ///< a force level: off by what the sensor's zero is off
+  bool can_be_held = false;             ///< by HeldParameters
+  bool depends_on_sensor_zero = false;  ///< a force level: off by what the sensor's zero is off
 };
 
 /// Returns the table of all parameters.

@@ -126,7 +126,7 @@ class Cutter {
     bin.force = force_[begin] + sums.f / bin.count;
     bin.time_spread = sums.spread();
     bin.slope = sums.slope();
-    bin.scatter = (hum_.force_beside.empty() ? sums : sum(hum_.force_beside, begin, end)).scatter();
+    bin.scatter = (hum_.force_without_lines.empty() ? sums : sum(hum_.force_without_lines, begin, end)).scatter();
     for (const double line_Hz : hum_.frequencies_Hz) bin.lines.push_back(reduce_line(begin, end, bin, line_Hz));
     return bin;
   }

@@ -198,7 +198,7 @@ AgeingCutoff cutoff_of(const LinesOverSticks& lines) {
   const double gain = (lines.with(0.0).chi2 - grid.chi2.minCoeff()) / variance;
   const bool above_0 = is_excluded(gain, freedom);
   cutoff.held = {above_0 ? quantile_of(cutoff, 0.025) : 0.0, quantile_of(cutoff, 0.975)};
-  cutoff.told = above_0 && cutoff.ratio > thresholds::kCutoffStickRatio;
+  cutoff.is_determined = above_0 && cutoff.ratio > thresholds::kCutoffStickRatio;
   return cutoff;
 }
 

@@ -16,12 +16,12 @@ struct AgeingCutoff {
   static constexpr Eigen::Index kPoints = 64;
   using Grid = Eigen::Array<double, kPoints, 1>;
 
-  double value = 0.0;    ///< by the mean share; lines are drawn with it
-  Interval held{};       ///< 95 % lie in it
-  double longest = 0.0;  ///< stick, the end of the range
-  double ratio = 1.0;    ///< of the longest stick to the shortest
-  bool told = false;     ///< by the sticks and the recordings; otherwise it is held over its range
-  Grid values, weights;  ///< over the range; the weights add up to 1
+  double value = 0.0;          ///< by the mean share; lines are drawn with it
+  Interval held{};             ///< 95 % lie in it
+  double longest = 0.0;        ///< stick, the end of the range
+  double ratio = 1.0;          ///< of the longest stick to the shortest
+  bool is_determined = false;  ///< by the sticks and the recordings; otherwise it is held over its range
+  Grid values, weights;        ///< over the range; the weights add up to 1
 };
 
 /// Says whether static friction of a sweep ages, with this cut-off, or is constant (empty).

@@ -25,7 +25,7 @@ std::string FreeMotion::words() const {
   const double frequency_Hz = damped_rad_per_s / (2.0 * std::numbers::pi);
   const double zeta_error = std::sqrt(covariance(1, 1));
   std::string frequency = fmt::format("{:.3g} ± {:.2g} Hz", frequency_Hz, frequency_Hz * std::sqrt(covariance(0, 0)));
-  if (!(zeta_error < thresholds::kTellingDamping)) return frequency;
+  if (!(zeta_error < thresholds::kInformativeDamping)) return frequency;
   return fmt::format("{} with a damping ratio of {:.2g} ± {:.1g}", frequency, zeta, zeta_error);
 }
 
@@ -50,7 +50,7 @@ FreeMotion motion_of(const RingDown& ring, double degrees_of_freedom) {
 
 SameMotion compare_motions(const FreeMotion& slips, const FreeMotion& ring) {
   if (!(slips.covariance.determinant() > 0.0) || !(ring.covariance.determinant() > 0.0)) return {};
-  if (!(std::sqrt(slips.covariance(0, 0)) < thresholds::kTellingFrequency)) return {};
+  if (!(std::sqrt(slips.covariance(0, 0)) < thresholds::kInformativeFrequency)) return {};
   const Eigen::Vector2d apart = ring.values - slips.values;
   const Eigen::Matrix2d gain = slips.covariance * (slips.covariance + ring.covariance).inverse();
   const double chi2 = apart.dot((slips.covariance + ring.covariance).inverse() * apart);

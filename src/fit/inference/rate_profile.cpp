@@ -27,7 +27,7 @@ struct Point {
 };
 
 /// Rates below or above the best one, the nearest first.
-std::vector<double> rates_beside(double best, double side) {
+std::vector<double> rates_around(double best, double side) {
   std::vector<double> rates;
   for (const double rate : kRates) {
     if ((rate - best) * side > 0.0) rates.push_back(rate);
@@ -45,7 +45,7 @@ std::vector<Point> points_on(const SweepSolution& solution, const StaticFriction
   Point before{Coordinates::Zero(), 0.0};
   const SweepSolution* from = &solution;
   std::optional<SweepSolution> held;
-  for (const double rate : rates_beside(best(kFrictionRate), side)) {
+  for (const double rate : rates_around(best(kFrictionRate), side)) {
     std::optional<SweepSolution> next = with_rate(*from, rate);
     if (!next) break;
     const double root = std::sqrt(std::max(0.0, next->chi2 - solution.chi2) / variance);

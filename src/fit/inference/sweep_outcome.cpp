@@ -26,11 +26,11 @@ LeftOut fit_of(const SweepData& data, const NormalSolution& fit, const StaticFri
 std::vector<std::optional<LeftOut>> leave_out_each(const SweepData& data, const NormalSolution& all,
                                                    const StaticFriction& kind) {
   const std::size_t count = all.solution.recordings.size();
-  std::mutex telling;
+  std::mutex notifying;
   return in_parallel(count, [&](std::size_t recording) -> std::optional<LeftOut> {
-    if (data.tell_step) {
-      const std::lock_guard lock(telling);
-      data.tell_step(fmt::format("fitting without recording {} of {}", recording + 1, count));
+    if (data.notify_step) {
+      const std::lock_guard lock(notifying);
+      data.notify_step(fmt::format("fitting without recording {} of {}", recording + 1, count));
     }
     const std::optional<NormalSolution> others = leave_out(all, recording);
     if (!others) return std::nullopt;

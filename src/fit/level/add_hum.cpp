@@ -44,9 +44,9 @@ HumLines hum_of(const Recording& recording, const BlockFit& fit) {
   HumLines hum{fit.level().lines_Hz, fit.scales().time_begin_s};
   if (hum.frequencies_Hz.empty()) return hum;
   const auto force = recording.force();
-  hum.force_beside.assign(force.begin(), force.end());
+  hum.force_without_lines.assign(force.begin(), force.end());
   for_each_wave(recording, fit, 0, force.size(), -1.0,
-                [&](std::size_t i, double wave) { hum.force_beside[i] += wave; });
+                [&](std::size_t i, double wave) { hum.force_without_lines[i] += wave; });
   return hum;
 }
 

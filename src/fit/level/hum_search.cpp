@@ -125,21 +125,21 @@ class NewLines {
   NewLines(const BlockFit& fit, const Rest& rest, const std::optional<StickRipple>& in_sticks)
       : known_Hz_(fit.level().lines_Hz), resolution_Hz_(rest.resolution_Hz()), spectrum_(rest.on_even_clock()) {
     const Prominence prominence(rest.values());
-    const auto is_new = [&](double f_Hz) { return !is_beside(f_Hz, known_Hz_) && !is_in_step(fit, f_Hz); };
+    const auto is_new = [&](double f_Hz) { return !is_near_one_of(f_Hz, known_Hz_) && !is_in_step(fit, f_Hz); };
     // find_mains compares a line with its surroundings, which are too low where the fitted cycles have removed noise
     // near their harmonics: a line must also be improbable against the noise of all residuals.
     for (const signal::MainsLine& line : spectrum_.mains(resolution_Hz_, known_Hz_)) {
       const double f_Hz = line.frequency_Hz;
       if (is_new(f_Hz) && prominence.of(rest.power_at(f_Hz)) > thresholds::kSureHum) seen_Hz_.push_back(f_Hz);
     }
-    const std::optional<double> other_Hz = line_beside_slips(fit, rest);
-    if (other_Hz && is_new(*other_Hz) && !is_beside(*other_Hz, seen_Hz_)) {
+    const std::optional<double> other_Hz = line_in_residuals(fit, rest);
+    if (other_Hz && is_new(*other_Hz) && !is_near_one_of(*other_Hz, seen_Hz_)) {
       const double square = rest.power_at(*other_Hz);
       // Weaker ones may be of slips that a drive moves, or of rounding.
       const bool is_large = square > fit.scales().noise * fit.scales().noise;
       if (is_large && prominence.of(square) > thresholds::kSureLine) seen_Hz_.push_back(*other_Hz);
     }
-    if (in_sticks && is_new(in_sticks->frequency_Hz) && !is_beside(in_sticks->frequency_Hz, seen_Hz_)) {
+    if (in_sticks && is_new(in_sticks->frequency_Hz) && !is_near_one_of(in_sticks->frequency_Hz, seen_Hz_)) {
       seen_Hz_.push_back(in_sticks->frequency_Hz);
     }
   }
@@ -164,7 +164,7 @@ class NewLines {
  private:
   /// The strongest line of the rest where the slips have no line: with another phase at the onset of each. Among few
   /// slips this is chance, and between runs of cycles lines have images.
-  [[nodiscard]] std::optional<double> line_beside_slips(const BlockFit& fit, const Rest& rest) const {
+  [[nodiscard]] std::optional<double> line_in_residuals(const BlockFit& fit, const Rest& rest) const {
     if (fit.size() < thresholds::kFewestOfLine || rest.runs().size() > 1) return std::nullopt;
     const double span_s = fit.state(fit.size() - 1).onset_s - fit.state(0).onset_s;
     const double slips_Hz = static_cast<double>(fit.size() - 1) / span_s;
@@ -177,7 +177,7 @@ class NewLines {
   [[nodiscard]] double width_Hz(double frequency_Hz) const {
     return std::max(3.0 * resolution_Hz_, 2e-3 * frequency_Hz);
   }
-  [[nodiscard]] bool is_beside(double frequency_Hz, const std::vector<double>& lines_Hz) const {
+  [[nodiscard]] bool is_near_one_of(double frequency_Hz, const std::vector<double>& lines_Hz) const {
     const auto is_near = [&](double f_Hz) { return std::abs(f_Hz - frequency_Hz) < width_Hz(frequency_Hz); };
     return std::any_of(lines_Hz.begin(), lines_Hz.end(), is_near);
   }

@@ -121,7 +121,7 @@ Scales scales_in_sweep(const SweepData& data, std::size_t recording, FrictionLaw
 SweepData prepare_sweep(std::span<const SweepRecording> recordings, const FitOptions& options,
                         const std::optional<FittedAverage>& known) {
   SweepData data;
-  data.tell_step = options.tell_step;
+  data.notify_step = options.notify_step;
   data.mean_load_N = mean_load_N(recordings);
   OwnFits own = fit_each(recordings, options.held, known);
   data.single = std::move(own.fits);

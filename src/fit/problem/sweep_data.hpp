@@ -33,8 +33,8 @@ struct SweepData {
   std::vector<double> loads;                          ///< normal force over their mean; 1 where not known
   std::optional<double> mean_load_N;                  ///< empty where a recording does not state it
   Units units;
-  std::vector<std::size_t> fitted;                    ///< recordings with cycles
-  std::function<void(const std::string&)> tell_step;  ///< FitOptions
+  std::vector<std::size_t> fitted;                      ///< recordings with cycles
+  std::function<void(const std::string&)> notify_step;  ///< FitOptions
 };
 
 /// `known`: fit_each.

@@ -45,7 +45,7 @@ bool is_damping_open(const FitResult& result, std::span<const SweepRecording> re
   return is_hidden(result, recordings) || (zeta->estimate.ci95->low <= 0.0 && zeta->estimate.ci95->high >= 1.0);
 }
 
-void tell_open_damping(FitResult& result) {
+void report_open_damping(FitResult& result) {
   for (Parameter& parameter : result.parameters) {
     if (parameter.id != ParameterId::DampingRatio) continue;
     const double error = 1.0 / std::sqrt(12.0);  // anything between 0 and 1 is as likely

@@ -17,6 +17,6 @@ std::optional<FittedAverage> found_average(const FitResult& result);
 bool is_damping_open(const FitResult& result, std::span<const SweepRecording> recordings);
 
 /// Says of a fit with zeta held at 0 that the recordings say nothing of it.
-void tell_open_damping(FitResult& result);
+void report_open_damping(FitResult& result);
 
 }  // namespace slipfit::fit

@@ -135,7 +135,7 @@ class Reporter {
   void report_ageing() {
     add_graded(Id::Ageing, f_.intervals.interval_of(model_.ageing), slip_doubt(), slip_note());
     const AgeingCutoff& cutoff = *f_.law->ageing;
-    if (!cutoff.told) return result_.parameters.push_back(held_cutoff(cutoff, f_.units.stick_s));
+    if (!cutoff.is_determined) return result_.parameters.push_back(held_cutoff(cutoff, f_.units.stick_s));
     add_graded(Id::AgeingTime, f_.intervals.interval_of_one_sign(model_.ageing_time), slip_doubt(), slip_note());
   }
 
@@ -209,14 +209,14 @@ class Reporter {
     if (!model_.reload) return add_of_slips(Id::Mass, estimate, doubt);
     const std::string why = doubt.empty() ? kRiseOfTimeOrDistance : doubt;
     add_graded(Id::Mass,
-               beside_relaxation(estimate, [this](const Jet& k) { return k / (model_.omega * model_.omega); }), why,
+               including_relaxation(estimate, [this](const Jet& k) { return k / (model_.omega * model_.omega); }), why,
                why);
   }
 
   /// The estimate of a quantity that follows from the stiffness in the slip, with an interval that includes what it is
   /// where the rise after a slip is the relaxation of the spring.
   template <class Quantity>
-  [[nodiscard]] Estimate beside_relaxation(const Estimate& estimate, const Quantity& of_stiffness) const {
+  [[nodiscard]] Estimate including_relaxation(const Estimate& estimate, const Quantity& of_stiffness) const {
     // What relaxes faster than a slip shows as a stiffer slip alone: rubber has a spectrum of times.
     constexpr double kWithFaster = 4.0 / 3.0;
     const auto by_relaxation = [&](double factor) {
@@ -282,13 +282,13 @@ class Reporter {
     if (!f_.slip_distance_unknown.empty()) return add_unknown(Id::SlipDistance, f_.slip_distance_unknown);
     if (!f_.weakens || !f_.slip_unresolved.empty()) return;
     const Estimate distance = f_.intervals.interval_of_one_sign(model_.slip_distance);
-    const bool tells = relative_error(distance) < thresholds::kTellingError;
-    if (!tells) return add_unknown(Id::SlipDistance, "it cannot be distinguished from 0, Coulomb friction");
+    const bool is_informative = relative_error(distance) < thresholds::kInformativeError;
+    if (!is_informative) return add_unknown(Id::SlipDistance, "it cannot be distinguished from 0, Coulomb friction");
     if (model_.reload) {
       // D_c is what the slip shows of k D_c / (F_s - F_k).
       const auto of_stiffness = [this](const Jet& k) { return model_.slip_distance * model_.stiffness / k; };
       const std::string why = slip_doubt().empty() ? kRiseOfTimeOrDistance : slip_doubt();
-      return add_graded(Id::SlipDistance, beside_relaxation(distance, of_stiffness), why, why);
+      return add_graded(Id::SlipDistance, including_relaxation(distance, of_stiffness), why, why);
     }
     const ParameterStatus status = at_one_speed(graded(Id::SlipDistance, distance, slip_doubt()));
     add(Id::SlipDistance, distance, status, status == ParameterStatus::Conditional ? kOneSpeed : slip_note());
@@ -326,7 +326,7 @@ class Reporter {
     const Estimate alpha = f_.intervals.interval_of_one_sign(model_.alpha);
     // Nearer to 0 than 3 standard errors: those that come out so large by chance would be reported, the others not.
     const double relative = relative_error(f_.intervals.interval_of(model_.alpha));
-    if (!(relative < thresholds::kTellingError)) return withhold_law(why_only_slope(within(slope, kAnyNumber)));
+    if (!(relative < thresholds::kInformativeError)) return withhold_law(why_only_slope(within(slope, kAnyNumber)));
     const std::string bends = "the speeds show little of the curvature; f1 alpha is known better";
     const auto noted = [&](ParameterStatus status) { return status == ParameterStatus::Weak ? bends : ""; };
     const ParameterStatus of_alpha = graded(Id::Alpha, alpha, slip_doubt());
@@ -340,8 +340,8 @@ class Reporter {
   }
 
   void report_law_forces(const Estimate& f0, const Estimate& f1, ParameterStatus status, const std::string& note) {
-    const bool told = f_.zero_known || status != ParameterStatus::Identified;
-    const ParameterStatus of_level = told ? status : ParameterStatus::Conditional;
+    const bool is_absolute = f_.zero_known || status != ParameterStatus::Identified;
+    const ParameterStatus of_level = is_absolute ? status : ParameterStatus::Conditional;
     const std::string zero = f_.zero_known ? note : kZeroUnknown;
     add(Id::F0, f0, of_level, zero);
     add(Id::F1, f1, status, note);

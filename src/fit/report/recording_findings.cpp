@@ -246,8 +246,8 @@ void state_doubts(const Conditions& conditions, const TierFits& fits, const Reso
   }
   // A standard error of a third says less than the bound by the drop.
   const Estimate difference = findings.intervals.interval_of(SlidingModel(findings.values, findings.units).difference);
-  const bool tells = *difference.standard_error < thresholds::kTellingError * *difference.value;
-  if (!is_resolved || !tells) {
+  const bool is_informative = *difference.standard_error < thresholds::kInformativeError * *difference.value;
+  if (!is_resolved || !is_informative) {
     findings.difference_bounds = bounds_by_drop(fits.sawtooth, static_cast<double>(findings.cycles));
   }
 }

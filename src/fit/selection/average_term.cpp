@@ -25,7 +25,7 @@ constexpr double kForgottenLags = 8.0;  // e^-8
 /// than the slip takes it away. Falls within a step of the clock show nothing of it.
 bool may_be_averaged(const FitInput& input, const DampedFit& plain) {
   const double step_s = input.recording.sample_interval_s();
-  if (!(median_slip_s(plain.blocks) > step_s) || hides_shape(input.quality.noise_rms, plain)) return false;
+  if (!(median_slip_s(plain.blocks) > step_s) || noise_exceeds_shape(input.quality.noise_rms, plain)) return false;
   const std::optional<Smoothing>& seen = plain.rounding;
   const double zeta = plain.blocks.parameters.values(kDamping);
   const bool is_damped = zeta > thresholds::kClearSigmas * damping_error(plain);
@@ -38,15 +38,15 @@ bool is_shaped(const std::optional<SegmentMisfit>& misfit) {
 
 /// Returns whether the slips have the shape of the model's once the averaging is taken out, and last longer than a step
 /// of the clock. A few cycles decide it.
-bool follows_slips(const DampedFit& fit, double sample_interval_s) {
+bool is_valid_slip(const DampedFit& fit, double sample_interval_s) {
   const double negative = -thresholds::kLikelySigmas * damping_error(fit);
   return is_shaped(fit.misfit) && !fit.refused_damping && fit.blocks.parameters.values(kDamping) > negative &&
          resting_share(fit.blocks) >= thresholds::kRestickShare && median_slip_s(fit.blocks) > sample_interval_s;
 }
 
 /// Returns whether the slips and W can be distinguished.
-bool tells_slips(const DampedFit& fit) {
-  return damping_error(fit) < thresholds::kTellingDamping && tells_average(*fit.average);
+bool slip_is_identifiable(const DampedFit& fit) {
+  return damping_error(fit) < thresholds::kInformativeDamping && average_is_identifiable(*fit.average);
 }
 
 /// A lag of first order is ten times less likely on cycles that are wide enough to show it.
@@ -78,7 +78,7 @@ Found best_fit(const FitInput& input, const TermFitter& fitter, const DampedFit&
   Found found;
   for (const Minimum& minimum : minima) {
     std::optional<DampedFit> next = fitter.fit(minimum.blocks);
-    if (!next || !follows_slips(*next, sample_interval_s)) continue;
+    if (!next || !is_valid_slip(*next, sample_interval_s)) continue;
     double gain_on_samples = gain_on_same_samples(*next, plain) + 2.0;  // without the price of the parameter
     if (!(gain_on_samples + gain_by_mass(input, *next, plain) > -thresholds::kNotRuledOut)) continue;
     next = with_average_error(*std::move(next));
@@ -131,10 +131,10 @@ AverageTrial try_average(const FitInput& input, const DampedFit& plain) {
                         (by_mass > thresholds::kTierPrice || rules_out_lag(input, plain, fit->blocks));
   if (!is_taken && !hides_damping(fit->blocks)) return {};
   if (!is_taken) return {std::nullopt, std::move(fit)};
-  if (!tells_slips(*fit)) {
+  if (!slip_is_identifiable(*fit)) {
     fit->fall_doubt = "the data cannot separate the slips from the sensor averaging that rounds them";
   }
-  if (other) fit = beside_rival(*std::move(fit), *other);
+  if (other) fit = widened_by_rival(*std::move(fit), *other);
   return {std::move(fit), std::nullopt};
 }
 
@@ -144,7 +144,7 @@ bool hides_damping(const BlockFit& fit) {
   return std::exp(fit.parameters.values(kLogFrequency)) * fit.sensor().average_s > thresholds::kHidingAverage;
 }
 
-bool tells_average(const FittedAverage& average) {
+bool average_is_identifiable(const FittedAverage& average) {
   return average.seconds > 2.0 * thresholds::kClearSigmas * average.standard_error_s;
 }
 
@@ -157,7 +157,7 @@ std::optional<DampedFit> fit_as_sensed(const FitInput& input, DampedFit plain) {
     rival = std::move(trial.rival);
   }
   std::optional<DampedFit> fit = finish_fit(input, std::move(plain));
-  return fit && rival ? beside_rival(*std::move(fit), *rival) : std::move(fit);
+  return fit && rival ? widened_by_rival(*std::move(fit), *rival) : std::move(fit);
 }
 
 bool repeats_rounding(const DampedFit& fit) {

@@ -13,7 +13,7 @@ bool hides_damping(const BlockFit& fit);
 
 /// Its variance, which is what rounds the slips, is more than kClearSigmas of its errors: T_b itself, a root, is twice
 /// as many of its own.
-bool tells_average(const FittedAverage& average);
+bool average_is_identifiable(const FittedAverage& average);
 
 /// `plain` finished, with the average that the slips show where the recording states none. Where one is not ruled out,
 /// intervals hold what it would make of the slips.

@@ -39,7 +39,7 @@ Chosen with_weakening(Chosen chosen, const FitInput& input, std::optional<Tier> 
     }
   }
   for (const DampedFit& rival : trial.rivals) {
-    chosen.fits.damped = beside_rival(std::move(chosen.fits.damped), rival);
+    chosen.fits.damped = widened_by_rival(std::move(chosen.fits.damped), rival);
   }
   chosen.fits.damped.average_doubt = trial.average_doubt;
   chosen.candidates.push_back(std::move(candidate));
@@ -58,8 +58,8 @@ Chosen choose_law(const FitInput& input, DampedFit damped, std::optional<Tier> f
 }
 
 /// Chooses the law from the slips alone. The result is empty where no fit of them is found.
-std::optional<Chosen> choose(const FitInput& input, std::optional<Tier> forced, const GiveUp& give_up) {
-  std::optional<DampedFit> fit = draft_with_rise(input, give_up);
+std::optional<Chosen> choose(const FitInput& input, std::optional<Tier> forced, const AbortPredicate& should_abort) {
+  std::optional<DampedFit> fit = draft_with_rise(input, should_abort);
   if (fit) fit = fit_as_sensed(input, *std::move(fit));
   if (!fit) return std::nullopt;
   return choose_law(input, fit_with_mass(input, *std::move(fit)), forced);
@@ -87,8 +87,9 @@ std::optional<Chosen> with_motion(Chosen chosen, const FitInput& input, std::opt
 
 }  // namespace
 
-std::optional<Chosen> choose_with_ring_down(const FitInput& input, const FitOptions& options, const GiveUp& give_up) {
-  std::optional<Chosen> chosen = choose(input, options.tier, give_up);
+std::optional<Chosen> choose_with_ring_down(const FitInput& input, const FitOptions& options,
+                                            const AbortPredicate& should_abort) {
+  std::optional<Chosen> chosen = choose(input, options.tier, should_abort);
   if (!chosen || !options.ring_down || !chosen->resolution.slip_resolved) return chosen;
   const auto evidence = ring_evidence(input.recording, chosen->fits.damped, *options.ring_down);
   if (!evidence) return chosen;

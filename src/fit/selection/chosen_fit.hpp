@@ -20,6 +20,7 @@ struct Chosen {
 /// Returns the poorest law, seen through the sensor, that explains the recording; empty where it has no cycles to fit.
 /// The ring-down of the options, if there is one, adds data of w_n and zeta to the slips where both are of one motion:
 /// their mean is held and its errors are in the covariances. Where they are not, a warning says so.
-std::optional<Chosen> choose_with_ring_down(const FitInput& input, const FitOptions& options, const GiveUp& give_up);
+std::optional<Chosen> choose_with_ring_down(const FitInput& input, const FitOptions& options,
+                                            const AbortPredicate& should_abort);
 
 }  // namespace slipfit::fit

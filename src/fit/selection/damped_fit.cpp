@@ -39,12 +39,12 @@ constexpr double kFinal = 1e-3;
 
 class Fitter {
  public:
-  Fitter(const FitInput& input, const GiveUp& give_up)
+  Fitter(const FitInput& input, const AbortPredicate& should_abort)
       : recording_(input.recording),
         quality_(input.quality),
         segmentation_(input.segmentation),
         held_values_(input.held),
-        give_up_(give_up),
+        should_abort_(should_abort),
         held_(held_of(input.held)),
         scales_(scales_of(recording_, quality_, segmentation_)),
         excluded_(initial_exclusions(recording_, quality_)) {}
@@ -57,19 +57,19 @@ class Fitter {
       auto middle = fit_middle(*start, start->level().lines_Hz);
       if (middle) start = with_settled_hum(*std::move(middle));
       start = or_wandering(*std::move(start), kRough);
-      if (give_up_ && give_up_(*start)) return std::nullopt;
+      if (should_abort_ && should_abort_(*start)) return std::nullopt;
     }
     std::optional<BlockFit> fit =
         fit_from(std::move(cycles_), start->level(), start->parameters.values, kMaxIterations, kRough);
     if (fit && !are_many) {
       fit = or_wandering(*std::move(fit), kRough);
-      if (give_up_ && give_up_(*fit)) return std::nullopt;
+      if (should_abort_ && should_abort_(*fit)) return std::nullopt;
     }
     const std::size_t excluded = excluded_.size();
     if (fit) fit = with_clean_data(std::move(*fit));
     if (!fit) return std::nullopt;
     if (excluded_.size() > excluded) fit = or_wandering(*std::move(fit), kFinal);  // outliers may have led there
-    if (!fit->level().lines_Hz.empty()) fit = beside_hum(*std::move(fit), cut());
+    if (!fit->level().lines_Hz.empty()) fit = with_hum_in_bins(*std::move(fit), cut());
     if (quality_.clock_jitter > thresholds::kUnevenClock) fit = with_clock_weights(std::move(*fit));
     if (!refuse_negative_damping(*fit, kFinal)) return std::nullopt;
     return with_uncertainty(
@@ -121,7 +121,7 @@ class Fitter {
     LevelModel level = near.level();
     level.lines_Hz = lines_Hz;
     // What decides whether all are fitted has to be settled.
-    const double tolerance = give_up_ ? kFinal : kRough;
+    const double tolerance = should_abort_ ? kFinal : kRough;
     return fit_from(spread_subset(cycles_, kMiddleCycles), level, near.parameters.values, kMiddleIterations, tolerance);
   }
 
@@ -208,7 +208,7 @@ class Fitter {
       const std::vector<std::size_t> outliers = find_outliers(residuals, scales_.noise);
       const std::vector<std::size_t> censored = beyond_clip(recording_, quality_, residuals, scales_.noise);
       const std::vector<std::size_t> bad = unexplained_slips(fit);
-      residuals = silenced(std::move(residuals), outliers);
+      residuals = zeroed_at(std::move(residuals), outliers);
       residuals.part.swap(parts);  // a stick continues around what is left out of it
       const std::optional<StickRipple> ripple =
           find_stick_ripple(recording_, fit, residuals, tolerated_misfit(quality_));
@@ -255,7 +255,7 @@ class Fitter {
   const Quality& quality_;
   const Segmentation& segmentation_;
   const HeldParameters& held_values_;
-  const GiveUp& give_up_;
+  const AbortPredicate& should_abort_;
   Held held_;
   Scales scales_;
   std::vector<std::size_t> excluded_;  // in ascending order
@@ -267,9 +267,9 @@ class Fitter {
 
 }  // namespace
 
-std::optional<DampedFit> draft_damped(const FitInput& input, const GiveUp& give_up) {
+std::optional<DampedFit> draft_damped(const FitInput& input, const AbortPredicate& should_abort) {
   if (input.segmentation.slips.size() < thresholds::kFewestSlips) return std::nullopt;
-  return Fitter(input, give_up).fit();
+  return Fitter(input, should_abort).fit();
 }
 
 std::optional<BlockFit> rough_fit(const FitInput& input) {

@@ -50,7 +50,7 @@ FitResult qualified_by_mains(FitResult fit, double frequency_Hz, double duration
 
 namespace {
 
-bool hangs_on_inertia(ParameterId id) {
+bool depends_on_inertia(ParameterId id) {
   return id == ParameterId::NaturalFrequency || id == ParameterId::Mass || id == ParameterId::DampingRatio ||
          id == ParameterId::DampingCoefficient;
 }
@@ -60,7 +60,7 @@ FitResult without_inertia(FitResult fit, const std::string& reason, double force
   const Interval bounds{0.5 * force_drop, force_drop};
   for (Parameter& parameter : fit.parameters) {
     if (parameter.status == ParameterStatus::Fixed) continue;
-    if (hangs_on_inertia(parameter.id)) {
+    if (depends_on_inertia(parameter.id)) {
       parameter.status = ParameterStatus::Unidentified;
       parameter.estimate = unknown(reason);
     } else if (parameter.id == ParameterId::FrictionDifference) {
@@ -76,7 +76,7 @@ FitResult without_inertia(FitResult fit, const std::string& reason, double force
 
 FitResult with_doubtful_inertia(FitResult fit, const std::string& reason) {
   for (Parameter& parameter : fit.parameters) {
-    if (!hangs_on_inertia(parameter.id)) continue;
+    if (!depends_on_inertia(parameter.id)) continue;
     if (parameter.status == ParameterStatus::Unidentified || parameter.status == ParameterStatus::Fixed) continue;
     parameter.status = ParameterStatus::Weak;
     parameter.estimate.note = reason;

@@ -62,7 +62,7 @@ std::optional<BlockFit> recut(BlockFit fit, const Cut& cut, const std::vector<st
   return anew;
 }
 
-BlockFit beside_hum(BlockFit fit, const Cut& cut) {
+BlockFit with_hum_in_bins(BlockFit fit, const Cut& cut) {
   std::vector<CycleData> cycles = same_cycles_of(fit, cycles_of(cut, hum_of(cut.recording, fit)));
   std::vector<double> middles = middles_s(cut.segmentation, cycles);
   std::optional<BlockFit> same = BlockFit::create(std::move(cycles), std::move(middles), fit.scales(), fit.level());

@@ -25,6 +25,6 @@ std::optional<BlockFit> recut(BlockFit fit, const Cut& cut, const std::vector<st
                               const std::vector<double>& lines_Hz);
 
 /// Returns the fit with the scatter in its sticks computed without its hum.
-BlockFit beside_hum(BlockFit fit, const Cut& cut);
+BlockFit with_hum_in_bins(BlockFit fit, const Cut& cut);
 
 }  // namespace slipfit::fit

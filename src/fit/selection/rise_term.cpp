@@ -46,13 +46,13 @@ bool is_justified(const DampedFit& fit, const DampedFit& plain, const RampBend& 
   const std::optional<RampBend> after = ramp_bend(fit.blocks);
   const bool is_straight = after && std::abs(after->log_ratio) < thresholds::kHalvedStack * before.log_ratio;
   return is_straight && !is_at_bound(fit.blocks) && rise > thresholds::kClearSigmas * error_of(fit, kReloadForce) &&
-         error_of(fit, kReloadLength) < thresholds::kTellingError && gain_of(fit, plain) > thresholds::kTierPrice;
+         error_of(fit, kReloadLength) < thresholds::kInformativeError && gain_of(fit, plain) > thresholds::kTierPrice;
 }
 
 }  // namespace
 
-std::optional<DampedFit> draft_with_rise(const FitInput& input, const GiveUp& give_up) {
-  std::optional<DampedFit> plain = draft_damped(input, give_up);
+std::optional<DampedFit> draft_with_rise(const FitInput& input, const AbortPredicate& should_abort) {
+  std::optional<DampedFit> plain = draft_damped(input, should_abort);
   if (!plain) return plain;
   const std::optional<RampBend> bend = ramp_bend(plain->blocks);
   if (!bends(bend, *plain, input.quality)) return plain;

@@ -5,7 +5,7 @@
 
 namespace slipfit::fit {
 
-DampedFit beside_rival(DampedFit fit, const DampedFit& other) {
+DampedFit widened_by_rival(DampedFit fit, const DampedFit& other) {
   const CoordinateMatrix own = fit.uncertainty.covariance;
   CoordinateMatrix wide = other.uncertainty.covariance;
   for (Eigen::Index i = 0; i < kCoordinates; ++i) {

@@ -115,7 +115,7 @@ std::optional<BlockFit> settled(BlockFit blocks, const Held& held) {
 bool is_negative(const DampedFit& fit) {
   const double zeta = fit.blocks.parameters.values(kDamping);
   const double error = damping_error(fit);
-  const bool is_open = fit.blocks.scales().law == FrictionLaw::Weakening && !(error < thresholds::kTellingDamping);
+  const bool is_open = fit.blocks.scales().law == FrictionLaw::Weakening && !(error < thresholds::kInformativeDamping);
   return !fit.held[kDamping] && zeta < (is_open ? 0.0 : -thresholds::kLikelySigmas * error);
 }
 
@@ -355,10 +355,10 @@ std::vector<Minimum> TermFitter::drafts_of(Terms terms) const {
   std::vector<Minimum> drafts;
   std::optional<double> latest_share;
   for (const Start& start : starts_of(terms)) {
-    const bool is_beside_latest = latest_share == start.share_of_fall;
+    const bool shares_average = latest_share == start.share_of_fall;
     std::optional<Minimum> draft = drafted(terms, start);
-    if (!draft || (is_beside_latest && !explains_more(*draft, drafts.back()))) continue;
-    if (is_beside_latest) drafts.pop_back();
+    if (!draft || (shares_average && !explains_more(*draft, drafts.back()))) continue;
+    if (shares_average) drafts.pop_back();
     latest_share = start.share_of_fall;
     drafts.push_back(*std::move(draft));
   }

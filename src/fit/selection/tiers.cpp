@@ -64,7 +64,7 @@ Candidate candidate_of(const DampedFit& fit, Tier tier, std::size_t parameters, 
   return {tier, parameters, rms, aicc(rms, effective, static_cast<double>(parameters)), false, {}};
 }
 
-bool hides_shape(double noise_rms, const DampedFit& fit) {
+bool noise_exceeds_shape(double noise_rms, const DampedFit& fit) {
   double drop = 0.0;
   for (std::size_t i = 0; i < fit.blocks.size(); ++i) drop += drop_of(fit.blocks.state(i));
   return noise_rms > thresholds::kLooseFit * drop / static_cast<double>(fit.blocks.size());
@@ -129,8 +129,9 @@ Resolution resolution_of(const Recording& recording, const TierFits& fits) {
   Resolution result;
   result.samples_per_slip = median_slip_s(blocks) / recording.sample_interval_s();
   const bool held = fits.damping_held();
-  const bool scatter_tells = !fits.damped.refused_damping && damping_error(fits.damped) < thresholds::kPinningDamping;
-  if (result.samples_per_slip < thresholds::kResolvedSamples && !held && !scatter_tells) {
+  const bool scatter_is_informative =
+      !fits.damped.refused_damping && damping_error(fits.damped) < thresholds::kPinningDamping;
+  if (result.samples_per_slip < thresholds::kResolvedSamples && !held && !scatter_is_informative) {
     result.reason = too_few_samples(result.samples_per_slip, recording.sample_interval_s());
     return result;
   }
@@ -139,7 +140,7 @@ Resolution resolution_of(const Recording& recording, const TierFits& fits) {
     result.reason =
         fmt::format("the slip does not follow a damped oscillation: the best damping ratio is negative, {:.2f}",
                     *fits.damped.refused_damping);
-  } else if (!held && !(damping_error(fits.damped) < thresholds::kTellingDamping)) {
+  } else if (!held && !(damping_error(fits.damped) < thresholds::kInformativeDamping)) {
     result.reason = fmt::format("the standard error of the damping ratio is {:.2g}; {}", damping_error(fits.damped),
                                 result.samples_per_slip < 6.0
                                     ? too_few_samples(result.samples_per_slip, recording.sample_interval_s())

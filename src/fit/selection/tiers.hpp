@@ -20,7 +20,7 @@ struct SawtoothFit {
 /// Noise of the recording (Quality::noise_rms) that is more than a fit that is kept leaves (kLooseFit), whatever onset
 /// force it has, which is at most the drop between the sticks: another law of friction or an average of the sensor,
 /// which change the shape of every slip alike, need not be tried.
-bool hides_shape(double noise_rms, const DampedFit& fit);
+bool noise_exceeds_shape(double noise_rms, const DampedFit& fit);
 
 SawtoothFit fit_sawtooth(const DampedFit& damped);
 

@@ -45,7 +45,7 @@ Candidate judged(Candidate candidate, const DampedFit& fit, const DampedFit& cou
       "AICc {:.1f} {} than under Coulomb friction, D_c {:.1f} of its standard errors, mean residual over the phase of "
       "the slip {:.2g} % of the onset force in place of {:.2g} %",
       std::abs(gain), gain < 0.0 ? "higher" : "lower", sigmas, 100.0 * after, 100.0 * before);
-  if (!(damping_error(fit) < thresholds::kTellingDamping)) {
+  if (!(damping_error(fit) < thresholds::kInformativeDamping)) {
     candidate.reason += fmt::format("; the standard error of the damping ratio is {:.2g}", damping_error(fit));
     return candidate;
   }
@@ -152,7 +152,7 @@ Candidate judged_both(const Both& both, const DampedFit& single, double before) 
   const DampedFit& fit = both.fit;
   Candidate candidate =
       judged(candidate_of(fit, Tier::Weakening, 5, effective_samples(fit)), fit, single, both.gain, before);
-  if (!tells_average(*fit.average) || !has_slips_of_the_model(fit)) candidate.chosen = false;
+  if (!average_is_identifiable(*fit.average) || !has_slips_of_the_model(fit)) candidate.chosen = false;
   return candidate;
 }
 
@@ -172,7 +172,7 @@ WeakeningTrial with_both(WeakeningTrial trial, const FitInput& input, const Term
     for (const DampedFit* rival : {&both->fit, both->other ? &*both->other : nullptr}) {
       if (rival == nullptr || !has_slips_of_the_model(*rival)) continue;
       if (trial.candidate.chosen) {
-        trial.fit = beside_rival(*std::move(trial.fit), *rival);
+        trial.fit = widened_by_rival(*std::move(trial.fit), *rival);
       } else {
         trial.rivals.push_back(*rival);
       }
@@ -183,7 +183,7 @@ WeakeningTrial with_both(WeakeningTrial trial, const FitInput& input, const Term
 
 /// The friction that weakens beside a low-pass filter of the instrument that explains the slips as well: it delays and
 /// skews them as a slow onset does, and only a stated filter is known. Intervals then include both.
-WeakeningTrial beside_filter(WeakeningTrial trial, const FitInput& input, const DampedFit& coulomb) {
+WeakeningTrial compared_with_filter(WeakeningTrial trial, const FitInput& input, const DampedFit& coulomb) {
   if (!trial.fit || input.recording.conditions().sensor_bandwidth_Hz) return trial;
   const double omega_rad_per_s = std::exp(coulomb.blocks.parameters.values(kLogFrequency));
   const auto fitter = TermFitter::create(input, coulomb, kFilterReach / omega_rad_per_s);
@@ -193,7 +193,7 @@ WeakeningTrial beside_filter(WeakeningTrial trial, const FitInput& input, const 
   if (gain_on_same_samples(*trial.fit, *filter) + 2.0 + by_parameters > thresholds::kTierPrice) return trial;
   const std::size_t order = filter->blocks.scales().sensor_order;
   const double corner_Hz = butterworth_delay(order) / (2.0 * std::numbers::pi * filter->blocks.sensor().lag_s);
-  trial.fit = beside_rival(*std::move(trial.fit), *filter);
+  trial.fit = widened_by_rival(*std::move(trial.fit), *filter);
   trial.fit->law_doubt = fmt::format(
       "a low-pass filter of the instrument (order {}, {:.2g} Hz) explains the slips as well as friction that "
       "weakens over a slip distance; --sensor-filter states one",
@@ -204,7 +204,7 @@ WeakeningTrial beside_filter(WeakeningTrial trial, const FitInput& input, const 
 }  // namespace
 
 bool may_weaken(const FitInput& input, const DampedFit& coulomb) {
-  if (hides_shape(input.quality.noise_rms, coulomb)) return false;
+  if (noise_exceeds_shape(input.quality.noise_rms, coulomb)) return false;
   const bool is_rounded = coulomb.rounding && coulomb.rounding->exceeds_step(input.recording.sample_interval_s());
   return coulomb.misfit || coulomb.refused_damping || coulomb.average || is_rounded;
 }
@@ -235,7 +235,7 @@ WeakeningTrial try_weakening(const FitInput& input, const DampedFit& coulomb, st
         "no slip distance between 0 and (F_s - F_k) / k halves what the slips of Coulomb friction miss";
   }
   if (fitter) trial = with_both(std::move(trial), input, *fitter, coulomb);
-  return trial.candidate.chosen ? beside_filter(std::move(trial), input, coulomb) : std::move(trial);
+  return trial.candidate.chosen ? compared_with_filter(std::move(trial), input, coulomb) : std::move(trial);
 }
 
 }  // namespace slipfit::fit
