@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "model/linear_part.hpp"
 #include "model/root_between.hpp"
 #include "model/weakening_slide.hpp"
 
@@ -149,27 +150,16 @@ WeakeningPoint WeakeningSlip::integral_to(double tau) const {
   return {{now.integral.a, now.integral.v[0], now.integral.v[1], now.z.a}, now.integral.v[2]};
 }
 
-/// The power series of z'' + 2 zeta z' + z = 0 or, while the friction falls, of x'' + 2 zeta x' - g x = tau with
-/// z = z0 + tau - x: z'' = g z - 2 zeta z' + 2 zeta - g z0 - (1 + g) tau.
+/// While the friction falls, x'' + 2 zeta x' - g x = tau with z = z0 + tau - x gives
+/// z'' = g z - 2 zeta z' + 2 zeta - g z0 - (1 + g) tau.
 SlipPart WeakeningSlip::part_from(const State& begin, double length, bool weakens) const {
-  const Jet g = weakens ? stiffening_ : Jet(-1.0);
-  const Jet by_time = weakens ? -(1.0 + g) : Jet(0.0);
-  const Jet constant = weakens ? 2.0 * zeta_ - g * z0_ + by_time * begin.tau.a : Jet(0.0);
-  std::array<Jet, kSeriesOrder + 2> z{begin.z, begin.dz};  // a term more, for the drag
-  for (std::size_t n = 0; n + 2 < z.size(); ++n) {
-    const auto order = static_cast<double>(n);
-    Jet force = g * z[n] - 2.0 * zeta_ * (order + 1.0) * z[n + 1];
-    if (n == 0) force += constant;
-    if (n == 1) force += by_time;
-    z[n + 2] = force / ((order + 1.0) * (order + 2.0));
+  LinearForce force;
+  if (weakens) {
+    force.by_z = stiffening_;
+    force.by_time = -(1.0 + stiffening_);
+    force.constant = 2.0 * zeta_ - stiffening_ * z0_ + force.by_time * begin.tau.a;
   }
-  SlipPart part{begin.tau.a, length, {}};
-  for (std::size_t n = 0; n <= kSeriesOrder; ++n) {
-    Jet term = z[n];
-    if (view_ == ForceView::Transmitted) term += 2.0 * zeta_ * (static_cast<double>(n) + 1.0) * z[n + 1];
-    part.terms[n] = {term.a, term.v[0], term.v[1], term.v[2], 0.0};
-  }
-  return part;
+  return linear_part({begin.tau.a, length}, begin.z, begin.dz, force, zeta_, view_ == ForceView::Transmitted);
 }
 
 std::vector<SlipPart> WeakeningSlip::parts() const {

@@ -208,7 +208,7 @@ TEST_CASE("a sensor that has not forgotten one slip when the next begins is warn
 
 TEST_CASE("a sensor much faster than the slip shows the slip itself") {
   const fit::CoulombCycle cycle(8.0, 0.06, {1e-5}, ForceView::Spring);
-  const model::Slip& slip = cycle.slip;
+  const model::Slip& slip = cycle.wave.slip;
   for (const double tau : {-0.5, 0.3, 1.0, 2.0, slip.tau_end - 0.01}) {
     const double exact = tau < 0.0 ? slip.z0 + tau : model::slip_wave(slip, tau).z;
     const double slope = tau < 0.0 ? 1.0 : model::slip_wave(slip, tau).d_tau;
@@ -228,7 +228,7 @@ TEST_CASE("a moving average of the limit cycle is that of numerical integration"
     CAPTURE(lambda, zeta, row.at("window"), tau);
     // Differences of integrals of size lambda^2, over the window, keep 1e-16 of them.
     const double expected = row.at("average");
-    const fit::CoulombMotion motion(slip, model::stick_after(slip), ForceView::Spring);
+    const fit::CoulombMotion motion(fit::CoulombWave(slip.z0, zeta, ForceView::Spring));
     const fit::ShownMotion<fit::CoulombMotion> shown(motion, {0.0, row.at("window")});
     CHECK(shown.at(tau).z == Approx(expected).margin(1e-12 * (1.0 + lambda)));
     const fit::AveragedSlip averaged(slip, model::stick_after(slip), row.at("window"), false);
@@ -270,7 +270,7 @@ TEST_CASE("an average without a lag is the same by either class") {
   const double average = GENERATE(0.3, 2.0, 6.0);
   const model::Slip slip = model::solve_slip(8.0, zeta);
   CAPTURE(zeta, transmitted, average);
-  const fit::CoulombMotion motion(slip, model::stick_after(slip), view);
+  const fit::CoulombMotion motion(fit::CoulombWave(8.0, zeta, view));
   const fit::ShownMotion<fit::CoulombMotion> sensed(motion, {0.0, average});
   const fit::AveragedSlip averaged(slip, model::stick_after(slip), average, transmitted);
   constexpr double kStep = 0.05;

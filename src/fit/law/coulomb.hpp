@@ -15,51 +15,90 @@
 
 namespace slipfit::fit {
 
-/// A cycle under Coulomb friction, in its view. The law has no numbers.
+/// A cycle under Coulomb friction in its view, without a sensor, in the units of model/slip.hpp: closed form.
+class CoulombWave {
+ public:
+  /// `z0`: spring force above F_k at the onset. Needs z0 + 2 zeta > 0 and |zeta| < 1.
+  CoulombWave(double z0, double zeta, ForceView view)
+      : slip(model::solve_slip(z0, zeta)),
+        after(model::stick_after(slip)),
+        is_transmitted(view == ForceView::Transmitted) {}
+
+  model::Slip slip;
+  model::StickLine after;
+  bool is_transmitted;
+
+  [[nodiscard]] model::WavePoint at(double tau) const {
+    if (tau <= 0.0) return before_slip(tau);
+    if (tau > slip.tau_end) return after_slip(tau);
+    const double decay = std::exp(-slip.zeta * tau);
+    return in_slip(tau, decay * std::cos(slip.b * tau), decay * std::sin(slip.b * tau));
+  }
+  /// Returns a point of the straight stick before the slip; `after_slip` returns one of the stick after it.
+  [[nodiscard]] model::WavePoint before_slip(double tau) const { return in_stick({slip.z0 + tau, 1.0, 0.0, 1.0}); }
+  [[nodiscard]] model::WavePoint after_slip(double tau) const {
+    return in_stick({after.intercept + tau, after.d_z0, after.d_zeta, 1.0});
+  }
+  /// Returns a point of the slip from c = exp(-zeta tau) cos b tau and bs = exp(-zeta tau) sin b tau.
+  [[nodiscard]] model::WavePoint in_slip(double tau, double c, double bs) const {
+    const double s = bs / slip.b;
+    return is_transmitted ? model::transmitted_wave(slip, tau, c, s) : model::slip_wave(slip, tau, c, s);
+  }
+
+ private:
+  [[nodiscard]] model::WavePoint in_stick(model::WavePoint spring) const {
+    if (is_transmitted) {
+      spring.z += 2.0 * slip.zeta;
+      spring.d_zeta += 2.0;
+    }
+    return spring;
+  }
+};
+
+/// The same cycle as ShownMotion takes it. The law has no numbers.
 class CoulombMotion {
  public:
   static constexpr bool kStraightSticks = true;
 
-  CoulombMotion(const model::Slip& slip, const model::StickLine& after, ForceView view);
+  explicit CoulombMotion(const CoulombWave& wave)
+      : wave_(wave), force_(wave.slip, wave.after, kAnyAverage, wave.is_transmitted) {}
 
-  [[nodiscard]] MotionPoint at(double tau) const;
+  [[nodiscard]] MotionPoint at(double tau) const {
+    const model::WavePoint p = wave_.at(tau);
+    return {p.z, p.d_tau, p.d_z0, p.d_zeta};
+  }
   [[nodiscard]] MotionPoint integral_to(double tau) const { return force_.integral_to(tau); }
-  [[nodiscard]] double tau_end() const { return slip_.tau_end; }
+  [[nodiscard]] double tau_end() const { return wave_.slip.tau_end; }
   [[nodiscard]] std::vector<model::SlipPart> parts() const;
 
  private:
-  model::Slip slip_;
-  model::StickLine after_;
-  bool is_transmitted_;
+  static constexpr double kAnyAverage = 1.0;  ///< integrals do not depend on it
+
+  CoulombWave wave_;
   AveragedSlip force_;
 };
 
-/// One cycle under Coulomb friction as the sensor shows it, in the units of model/slip.hpp: closed form.
+/// One cycle under Coulomb friction as the sensor shows it.
 class CoulombCycle {
  public:
   using Point = model::WavePoint;
   static constexpr bool kStraightSticks = true;
 
-  /// `z0`: spring force above F_k at the onset. Needs z0 + 2 zeta > 0 and |zeta| < 1.
-  CoulombCycle(double z0, double zeta, const Sensor& sensor, ForceView view)
-      : slip(model::solve_slip(z0, zeta)),
-        after(model::stick_after(slip)),
-        sensor_(sensor),
-        is_transmitted_(view == ForceView::Transmitted) {
+  /// `z0`, `zeta`: as for CoulombWave.
+  CoulombCycle(double z0, double zeta, const Sensor& sensor, ForceView view) : wave(z0, zeta, view), sensor_(sensor) {
     if (sensor.lag_tau > 0.0) {
-      filtered_.emplace(CoulombMotion(slip, after, view), sensor);
+      filtered_.emplace(CoulombMotion(wave), sensor);
     } else if (sensor.average_tau > 0.0) {
-      averaged_.emplace(slip, after, sensor.average_tau, is_transmitted_);
+      averaged_.emplace(wave.slip, wave.after, sensor.average_tau, wave.is_transmitted);
     }
   }
 
-  model::Slip slip;
-  model::StickLine after;
+  CoulombWave wave;
 
-  [[nodiscard]] double tau_end() const { return slip.tau_end; }
-  [[nodiscard]] bool resticks() const { return slip.resticks; }
+  [[nodiscard]] double tau_end() const { return wave.slip.tau_end; }
+  [[nodiscard]] bool resticks() const { return wave.slip.resticks; }
   /// Spring force above the level at tau = 0 of the stick after the slip.
-  [[nodiscard]] double intercept() const { return after.intercept; }
+  [[nodiscard]] double intercept() const { return wave.after.intercept; }
   /// Returns the force of the stick before the slip as the sensor shows it, continued to tau = 0; `shown_after` returns
   /// that of the stick after it.
   [[nodiscard]] double shown_before() const { return before_slip(0.0).z; }
@@ -69,20 +108,16 @@ class CoulombCycle {
   [[nodiscard]] Point at(double tau) const {
     const double reach = 0.5 * sensor_.average_tau;
     if (tau <= -reach) return before_slip(tau);
-    if (tau > slip.tau_end + reach && sensor_.lag_tau == 0.0) return after_slip(tau);
+    if (tau > tau_end() + reach && sensor_.lag_tau == 0.0) return after_slip(tau);
     if (filtered_) {
       const ShownPoint p = filtered_->at(tau);
       return {p.z, p.d_z0, p.d_zeta, p.d_tau, p.d_log_omega, p.d_log_average};
     }
-    if (averaged_) return averaged_->at(tau);
-    const double decay = std::exp(-slip.zeta * tau);
-    return in_slip(tau, decay * std::cos(slip.b * tau), decay * std::sin(slip.b * tau));
+    return averaged_ ? averaged_->at(tau) : wave.at(tau);
   }
   /// Returns a point of the straight stick before the slip; `after_slip` returns one of the stick after it.
-  [[nodiscard]] Point before_slip(double tau) const { return as_shown({slip.z0 + tau, 1.0, 0.0, 1.0}); }
-  [[nodiscard]] Point after_slip(double tau) const {
-    return as_shown({after.intercept + tau, after.d_z0, after.d_zeta, 1.0});
-  }
+  [[nodiscard]] Point before_slip(double tau) const { return delayed(wave.before_slip(tau)); }
+  [[nodiscard]] Point after_slip(double tau) const { return delayed(wave.after_slip(tau)); }
 
   /// Derivatives of the force with respect to the law's coordinates, of the point's.
   [[nodiscard]] static std::array<double, 1> by_law(const Point& point) { return {point.d_zeta}; }
@@ -99,17 +134,17 @@ class CoulombCycle {
         : cycle_(cycle),
           turns_evenly_(step_tau > 0.0 && !cycle.filtered_),
           step_tau_(step_tau),
-          begin_(cycle.slip.zeta, cycle.slip.b, step_tau),
+          begin_(cycle.wave.slip.zeta, cycle.wave.slip.b, step_tau),
           end_(begin_) {}
 
     Point at(double tau) {
       const double reach = 0.5 * cycle_.sensor_.average_tau;
-      if (!turns_evenly_ || !(tau > -reach) || !(tau <= cycle_.slip.tau_end + reach)) return cycle_.at(tau);
+      if (!turns_evenly_ || !(tau > -reach) || !(tau <= cycle_.tau_end() + reach)) return cycle_.at(tau);
       const bool is_next = tau < next_tau_ + 0.5 * step_tau_;
       next_tau_ = tau + step_tau_;
       const auto move = [is_next](model::Phasor& phasor, double to) { is_next ? phasor.step() : phasor.start(to); };
       move(begin_, tau - reach);
-      if (!cycle_.averaged_) return cycle_.in_slip(tau, begin_.c(), begin_.s());
+      if (!cycle_.averaged_) return cycle_.wave.in_slip(tau, begin_.c(), begin_.s());
       move(end_, tau + reach);
       return cycle_.averaged_->at(tau, begin_, end_);
     }
@@ -123,25 +158,14 @@ class CoulombCycle {
   };
 
  private:
-  /// Returns a point of the slip from c = exp(-zeta tau) cos b tau and bs = exp(-zeta tau) sin b tau.
-  [[nodiscard]] Point in_slip(double tau, double c, double bs) const {
-    const double s = bs / slip.b;
-    return is_transmitted_ ? model::transmitted_wave(slip, tau, c, s) : model::slip_wave(slip, tau, c, s);
-  }
-
   /// A straight ramp lags by the delay of the filter.
-  [[nodiscard]] Point as_shown(Point stick) const {
-    if (is_transmitted_) {
-      stick.z += 2.0 * slip.zeta;
-      stick.d_zeta += 2.0;
-    }
+  [[nodiscard]] Point delayed(Point stick) const {
     stick.z -= sensor_.lag_tau;
     stick.d_log_omega -= sensor_.lag_tau;
     return stick;
   }
 
   Sensor sensor_;
-  bool is_transmitted_;
   std::optional<ShownMotion<CoulombMotion>> filtered_;  ///< where the sensor filters
   std::optional<AveragedSlip> averaged_;                ///< where it averages, without a filter
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "core/filter_delay.hpp"
 
@@ -40,7 +41,7 @@ std::array<Complex, N> moments(const Complex& q) {
 
 }  // namespace
 
-std::vector<FilterPole> butterworth_poles(std::size_t order, double delay_tau) {
+std::vector<FilterResponse::Pole> FilterResponse::butterworth_poles(std::size_t order, double delay_tau) {
   const auto n = static_cast<double>(order);
   const double corner = butterworth_delay(order) / delay_tau;
   std::vector<Complex> kappas;
@@ -48,7 +49,7 @@ std::vector<FilterPole> butterworth_poles(std::size_t order, double delay_tau) {
     const double angle = std::numbers::pi * ((2.0 * static_cast<double>(k) + 1.0) / (2.0 * n) - 0.5);
     kappas.push_back(std::polar(corner, angle));
   }
-  std::vector<FilterPole> poles;
+  std::vector<Pole> poles;
   for (std::size_t k = order / 2; k < order; ++k) {  // the lower half are the conjugates
     const bool is_real = order % 2 == 1 && k == order / 2;
     const Complex kappa = is_real ? Complex(corner) : kappas[k];
@@ -61,19 +62,19 @@ std::vector<FilterPole> butterworth_poles(std::size_t order, double delay_tau) {
   return poles;
 }
 
-FilterResponse::FilterResponse(const MotionPoint& onset, const MotionPoint& delayed,
-                               const std::vector<model::SlipPart>& parts, std::size_t order, double delay_tau)
-    : tau_end_(parts.back().begin + parts.back().length), delay_tau_(delay_tau), parts_(parts) {
+FilterResponse::FilterResponse(const MotionPoint& onset, const MotionPoint& delayed, std::vector<model::SlipPart> parts,
+                               std::size_t order, double delay_tau)
+    : tau_end_(parts.back().begin + parts.back().length), delay_tau_(delay_tau), parts_(std::move(parts)) {
   const Column at_onset = column_of(onset);
   const Column before = column_of(delayed);
-  for (const FilterPole& pole : butterworth_poles(order, delay_tau)) {
+  for (const Pole& pole : butterworth_poles(order, delay_tau)) {
     const Complex lag = 1.0 / pole.kappa;
     memory_delay_tau_ += (pole.share * lag * lag).real() / delay_tau;
     Response now;
     for (std::size_t c = 0; c < kColumns; ++c) now.shown[c] = at_onset[c] - lag / delay_tau * (at_onset[c] - before[c]);
     now.d_log_omega = -lag * delayed.d_tau;
     Channel channel{pole, {now}};
-    for (const model::SlipPart& part : parts) {
+    for (const model::SlipPart& part : parts_) {
       now = response(pole.kappa, part, now, part.length);
       channel.begin.push_back(now);
     }
@@ -124,28 +125,21 @@ FilterResponse::Response FilterResponse::at(const Channel& channel, const Motion
   return response;
 }
 
-namespace {
-
-/// Adds what a pole shows times a weight.
-template <class Column>
-void add(const std::complex<double>& weight, const Column& shown, const std::complex<double>& d_log_omega,
-         ShownPoint& sum) {
-  const auto real = [&weight](const std::complex<double>& value) { return (weight * value).real(); };
-  sum.z += real(shown[0]);
-  sum.d_z0 += real(shown[1]);
-  sum.d_zeta += real(shown[2]);
-  sum.d_law[0] += real(shown[3]);
-  sum.d_law[1] += real(shown[4]);
-  sum.d_log_omega += real(d_log_omega);
+void FilterResponse::add(const Complex& weight, const Response& response, ShownPoint& sum) {
+  const auto real = [&weight](const Complex& value) { return (weight * value).real(); };
+  sum.z += real(response.shown[0]);
+  sum.d_z0 += real(response.shown[1]);
+  sum.d_zeta += real(response.shown[2]);
+  sum.d_law[0] += real(response.shown[3]);
+  sum.d_law[1] += real(response.shown[4]);
+  sum.d_log_omega += real(response.d_log_omega);
 }
-
-}  // namespace
 
 ShownPoint FilterResponse::at(const MotionPoint& motion, double tau) const {
   ShownPoint sum;
   for (const Channel& channel : channels_) {
     const Response y = at(channel, motion, tau);
-    add(channel.pole.share, y.shown, y.d_log_omega, sum);
+    add(channel.pole.share, y, sum);
     sum.d_tau += (channel.pole.share * channel.pole.kappa * (motion.z - y.shown[0])).real();
   }
   return sum;
@@ -154,9 +148,10 @@ ShownPoint FilterResponse::at(const MotionPoint& motion, double tau) const {
 ShownPoint FilterResponse::memory_at(const MotionPoint& motion, double tau) const {
   ShownPoint sum;
   for (const Channel& channel : channels_) {
-    const Response y = at(channel, motion, tau);
+    Response y = at(channel, motion, tau);
     // y' = kappa (z - y) makes the integral of y that of z less y / kappa; 1 / kappa is proportional to w_n.
-    add(channel.pole.share / channel.pole.kappa, y.shown, y.d_log_omega + y.shown[0], sum);
+    y.d_log_omega += y.shown[0];
+    add(channel.pole.share / channel.pole.kappa, y, sum);
     sum.d_tau += (channel.pole.share * (motion.z - y.shown[0])).real();
   }
   return sum;

@@ -23,31 +23,19 @@ struct ShownPoint : MotionPoint {
   double d_log_average = 0.0;
 };
 
-/// A pole of a low-pass filter and, if it is complex, its conjugate: y' = kappa (z - y), of which the filter shows
-/// the real part of share * y. docs/model.md section 7
-struct FilterPole {
-  std::complex<double> kappa;  ///< in units of w_n
-  std::complex<double> share;  ///< contains the factor 2 of a pair; the real parts of all add up to 1
-};
-
-/// Returns the poles of a Butterworth filter that delays a slow ramp by `delay_tau` (> 0). Order 1 is a lag of first
-/// order. `order`: from 1 to kHighestFilterOrder.
-std::vector<FilterPole> butterworth_poles(std::size_t order, double delay_tau);
-
 /// A cycle as a sensor with a Butterworth response shows it. In each part of the slip z is a polynomial, of which each
 /// pole's response is known in closed form, whatever the law of friction; the stick before counts as long enough for
 /// the slip before it to be forgotten. docs/model.md section 7
 class FilterResponse {
  public:
-  /// `onset`: of the motion at tau = 0, `delayed`: a delay before it; the stick between them counts as straight.
-  /// `parts`: all that is not straight from there on, in their order.
-  FilterResponse(const MotionPoint& onset, const MotionPoint& delayed, const std::vector<model::SlipPart>& parts,
+  /// `onset`, `delayed`: the motion at tau = 0 and at -delay_tau; the stick between them counts as straight.
+  /// `parts`: all that is not straight from there on, in their order. `order`: from 1, a lag of first order, to
+  /// kHighestFilterOrder. `delay_tau` (> 0): by which the filter delays a slow ramp.
+  FilterResponse(const MotionPoint& onset, const MotionPoint& delayed, std::vector<model::SlipPart> parts,
                  std::size_t order, double delay_tau);
 
-  /// Delay of a slow ramp.
   [[nodiscard]] double delay_tau() const { return delay_tau_; }
-  /// Time after which the memory of a ramp would have come out of the filter: `memory_at` of a straight stick is
-  /// delay_tau() times the force so much earlier.
+  /// On a straight stick `memory_at` is delay_tau() times the force this time earlier.
   [[nodiscard]] double memory_delay_tau() const { return memory_delay_tau_; }
   /// The force that the sensor shows at a tau above 0. `motion`: z there.
   [[nodiscard]] ShownPoint at(const MotionPoint& motion, double tau) const;
@@ -64,17 +52,26 @@ class FilterResponse {
     Column shown{};
     Complex d_log_omega = 0.0;
   };
+  /// A pole of the filter and, if it is complex, its conjugate: y' = kappa (z - y), of which the filter shows the real
+  /// part of share * y. docs/model.md section 7
+  struct Pole {
+    Complex kappa;  ///< in units of w_n
+    Complex share;  ///< contains the factor 2 of a pair; the real parts of all add up to 1
+  };
   /// A pole, and what it shows at the begin of each part and at the end of the slip.
   struct Channel {
-    FilterPole pole;
+    Pole pole;
     std::vector<Response> begin;
   };
 
+  static std::vector<Pole> butterworth_poles(std::size_t order, double delay_tau);
   static Column column_of(const MotionPoint& point) {
     return {point.z, point.d_z0, point.d_zeta, point.d_law[0], point.d_law[1]};
   }
   static Response response(const Complex& kappa, const model::SlipPart& part, const Response& begin, double time);
   [[nodiscard]] Response at(const Channel& channel, const MotionPoint& motion, double tau) const;
+  /// Adds what a pole shows, times a weight.
+  static void add(const Complex& weight, const Response& response, ShownPoint& sum);
 
   double tau_end_;
   double delay_tau_;

@@ -11,7 +11,7 @@ RampResidual ramp_residual(const BlockFit& fit, std::size_t first, const Coordin
   const Scales& scales = fit.scales();
   const std::optional<CycleState> s = fit.model(first).state(values, local_first);
   if (!s) return {std::numeric_limits<double>::quiet_NaN(), {}, {}, {}};
-  const model::StickLine& after = std::get<CoulombCycle>(s->motion).after;
+  const model::StickLine& after = std::get<CoulombCycle>(s->motion).wave.after;
   const double weight = 1.0 / (scales.noise * kRampTolerance);
   const double rate = s->stiffness_N_per_m * scales.speed_m_per_s;
   const double second_onset_s = fit.reference_s(first + 1) + scales.half_period_s * local_second[0];

@@ -51,8 +51,9 @@ struct Bend {
 };
 
 /// Returns the bend that moves k most; the result is empty where none is clear. The slope of a bent ramp depends on the
-/// part that is used, by half of the difference between its two halves. Creep before a slip and a rise of the force
-/// after it hide each other: beside a fitted rise, k may be off by all of the bend in the second half.
+/// part that is used, by half of the difference between its two halves. Creep before a slip flattens a stick, and a
+/// rise of the force after a slip steepens its beginning: where a rise is fitted, it takes up part of the creep, and k
+/// may be wrong by all of the bend in the second half of the sticks.
 std::optional<Bend> bend_of(const BlockFit& blocks) {
   std::optional<Bend> largest;
   const auto add = [&](const std::optional<RampBend>& seen, double share, const char* where) {

@@ -53,9 +53,10 @@ class TermFitter {
   /// infinity where there is no solution.
   [[nodiscard]] double least_with_lag(const Minimum& near) const;
 
-  /// The fit of all cycles behind a low-pass filter of the sensor (docs/model.md section 7) in place of the terms, of
-  /// the order that explains them best; its delay is a parameter. Empty where no start converges, or where the cycles
-  /// that compare the terms show that `other` explains them better by far.
+  /// Fits Coulomb friction as a low-pass filter of the sensor shows it (docs/model.md section 7) to all cycles. The
+  /// delay of the filter is a parameter; its order is the one of a few that explains the cycles best. The result is
+  /// empty where no start converges, and where the cycles that compare the terms already rule the filter out against
+  /// `other`.
   [[nodiscard]] std::optional<DampedFit> behind_filter(const BlockFit& other) const;
 
   /// Twice the logarithm of the likelihood ratio of two sums of squares of these cycles, each at its best noise. Above

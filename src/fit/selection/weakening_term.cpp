@@ -181,10 +181,10 @@ WeakeningTrial with_both(WeakeningTrial trial, const FitInput& input, const Term
   return trial;
 }
 
-/// The friction that weakens beside a low-pass filter of the instrument that explains the slips as well: it delays and
-/// skews them as a slow onset does, and only a stated filter is known. Intervals then include both.
+/// Compares friction that weakens, which was chosen, with a low-pass filter of the instrument, which delays and skews
+/// slips as a slow onset does. Where the data do not exclude a filter that nobody stated, intervals include both fits.
 WeakeningTrial compared_with_filter(WeakeningTrial trial, const FitInput& input, const DampedFit& coulomb) {
-  if (!trial.fit || input.recording.conditions().sensor_bandwidth_Hz) return trial;
+  if (input.recording.conditions().sensor_bandwidth_Hz) return trial;
   const double omega_rad_per_s = std::exp(coulomb.blocks.parameters.values(kLogFrequency));
   const auto fitter = TermFitter::create(input, coulomb, kFilterReach / omega_rad_per_s);
   const std::optional<DampedFit> filter = fitter ? fitter->behind_filter(trial.fit->blocks) : std::nullopt;
