@@ -1,6 +1,7 @@
 #include "fit/selection/average_term.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -20,6 +21,8 @@ namespace slipfit::fit {
 namespace {
 
 constexpr double kForgottenLags = 8.0;  // e^-8
+/// Variance of an impulse response with a long tail that rounds slips as much as an average of variance 1.
+constexpr double kLongTail = 3.0;
 
 /// Rounded slips, slips that are not shaped like the model's, or slips without damping: an average that lasts longer
 /// than the slip takes it away. Falls within a step of the clock show nothing of it.
@@ -49,13 +52,16 @@ bool slip_is_identifiable(const DampedFit& fit) {
   return damping_error(fit) < thresholds::kInformativeDamping && average_is_identifiable(*fit.average);
 }
 
-/// A lag of first order is ten times less likely on cycles that are wide enough to show it.
+/// Returns whether a lag of first order is ten times less likely on cycles that are wide enough to show it.
 bool rules_out_lag(const FitInput& input, const DampedFit& plain, const BlockFit& average) {
-  const double longest_lag_s = std::sqrt(kLongTail / 12.0) * average.sensor().average_s;
+  const double lag_s = average.sensor().average_s / std::sqrt(12.0);
+  const double longest_lag_s = std::sqrt(kLongTail) * lag_s;
   const auto fitter = TermFitter::create(input, plain, kForgottenLags * longest_lag_s);
-  if (!fitter) return false;
-  const std::optional<Minimum> best = fitter->near(average);
-  return best && fitter->gain_on_some(best->sum_of_squares, fitter->least_with_lag(*best)) > thresholds::kEvidence;
+  const std::optional<Minimum> best = fitter ? fitter->near(average) : std::nullopt;
+  if (!best) return false;
+  const std::optional<Minimum> lag =
+      fitter->behind_filter(best->blocks, std::array{FilterStart{1, lag_s}, FilterStart{1, longest_lag_s}});
+  return !lag || fitter->gain_on_some(best->sum_of_squares, lag->sum_of_squares) > thresholds::kEvidence;
 }
 
 /// Twice the logarithm of how much more likely a stated mass is by `fit` than by `plain`; 0 where it agrees with

@@ -7,7 +7,6 @@
 #include <memory>
 #include <utility>
 
-#include "core/filter_delay.hpp"
 #include "core/fit_thresholds.hpp"
 #include "core/thresholds.hpp"
 #include "fit/cycle/start.hpp"
@@ -35,10 +34,6 @@ constexpr std::array kWeakeningsWithAverage{0.1, 0.45};
 /// Length of the rise after slips, in that of the plain fit: behind an average it looks longer.
 constexpr std::array kRiseLengths{1.0, 0.5};
 
-/// Orders of the filters that bracket those of amplifiers and loggers, and their corner over w_n to begin with.
-constexpr std::array<std::size_t, 2> kFilterOrders{2, 4};
-constexpr double kFilterCorner = 3.0;
-
 constexpr int kRiseStarts = 6;
 constexpr double kShortestRise = 0.02;  // of a stick
 constexpr double kSlip2 = 5.6;          // W^2 of an average that draws the fall out as much as the slip itself does
@@ -56,9 +51,8 @@ constexpr double kRoughTolerance = 1e-4;  // a tenth of an error decides nothing
 constexpr double kFinalTolerance = 1e-3;
 /// Steps gain little along the valley of D_c or W, zeta and w_n: what ends other fits leaves them an error off.
 constexpr double kValleyTolerance = 1e-7;
-constexpr double kSameAverage = 0.1;                        // of ln W: two starts that led to one minimum
-constexpr double kRuledOut = 2.0 * thresholds::kTierPrice;  // of AICc by few of the cycles
-constexpr double kNothing = 0.1;                            // of its error: a slip distance that is none
+constexpr double kSameAverage = 0.1;  // of ln W: two starts that led to one minimum
+constexpr double kNothing = 0.1;      // of its error: a slip distance that is none
 
 double residuals_of(const std::vector<CycleData>& cycles) {
   double residuals = 0.0;
@@ -179,40 +173,21 @@ std::optional<Minimum> TermFitter::near(const BlockFit& fit) const {
   return Minimum{*std::move(some), sum};
 }
 
-double TermFitter::least_with_lag(const Minimum& near) const {
-  double least = std::numeric_limits<double>::infinity();
-  const double variance_s2 = std::pow(near.blocks.sensor().average_s, 2) / 12.0;
-  for (const double tail : {1.0, kLongTail}) {
-    Scales scales = near.blocks.scales();
-    scales.sensor_average_s = 0.0;
-    scales.sensor_lag_s = std::sqrt(tail * variance_s2);
-    scales.free_time = FreeTime::Lag;
-    std::optional<BlockFit> lag =
-        roughly_settled(with_rise_after(near.blocks.with_scales(scales)), held_, kRoughTolerance);
-    if (lag) least = std::min(least, sum_of_squares(*lag));
-  }
-  return least;
-}
-
-std::optional<DampedFit> TermFitter::behind_filter(const BlockFit& other) const {
+std::optional<Minimum> TermFitter::behind_filter(const BlockFit& from, std::span<const FilterStart> starts) const {
+  Scales scales = scales_of({}, input_.recording.conditions().sensor_average_s.value_or(0.0));
+  scales.free_time = FreeTime::Lag;
   std::optional<Minimum> best;
-  for (const std::size_t order : kFilterOrders) {
-    Scales scales = scales_of({}, input_.recording.conditions().sensor_average_s.value_or(0.0));
-    const double omega_rad_per_s = std::exp(plain_.blocks.parameters.values(kLogFrequency));
-    scales.sensor_lag_s = butterworth_delay(order) / (kFilterCorner * omega_rad_per_s);
-    scales.sensor_order = order;
-    scales.free_time = FreeTime::Lag;
-    BlockFit start = started(BlockFit(few_, scales), plain_.blocks.parameters.values);
-    if (!solve_own(start)) continue;
-    std::optional<BlockFit> blocks = roughly_settled(std::move(start), held_, kDescentTolerance);
-    if (!blocks) continue;
-    const double sum = sum_of_squares(*blocks);
-    if (!best || sum < best->sum_of_squares) best = Minimum{*std::move(blocks), sum};
+  for (const FilterStart& start : starts) {
+    scales.sensor_order = start.order;
+    scales.sensor_lag_s = start.lag_s;
+    BlockFit blocks = started(BlockFit(few_, scales), from.parameters.values);
+    if (!solve_own(blocks)) continue;
+    std::optional<BlockFit> settled = roughly_settled(std::move(blocks), held_, kDescentTolerance);
+    if (!settled) continue;
+    const double sum = sum_of_squares(*settled);
+    if (!best || sum < best->sum_of_squares) best = Minimum{*std::move(settled), sum};
   }
-  if (best) best = near(best->blocks);
-  const std::optional<Minimum> rival = near(other);
-  if (!best || !rival || gain_on_all(rival->sum_of_squares, best->sum_of_squares) > kRuledOut) return std::nullopt;
-  return fit(best->blocks);
+  return best ? near(best->blocks) : std::nullopt;
 }
 
 double TermFitter::gain_on_some(double better, double other) const {

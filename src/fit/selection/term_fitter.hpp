@@ -3,8 +3,10 @@
 #include <cstddef>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
+#include "core/fit_thresholds.hpp"
 #include "fit/selection/fit_input.hpp"
 #include "fit/selection/solution.hpp"
 
@@ -17,8 +19,14 @@ struct Terms {
   bool rise = false;       ///< a rise of the force after slips (section 10), where the plain fit has none
 };
 
-/// Variance of an impulse response with a long tail that rounds slips as much as an average of variance 1.
-inline constexpr double kLongTail = 3.0;
+/// AICc by which some of the cycles rule a minimum out.
+inline constexpr double kRuledOut = 2.0 * thresholds::kTierPrice;
+
+/// A low-pass filter of the instrument to begin with.
+struct FilterStart {
+  std::size_t order = 1;
+  double lag_s = 0.0;  ///< its delay (docs/model.md section 7)
+};
 
 /// A minimum of the sum of squares of some of the cycles.
 struct Minimum {
@@ -49,15 +57,10 @@ class TermFitter {
   /// The fit of these cycles with the terms of `fit`, another fit of the recording. Empty where a slip has no solution.
   [[nodiscard]] std::optional<Minimum> near(const BlockFit& fit) const;
 
-  /// Replaces the average of a minimum by a lag of first order and returns the least sum of squares from two starts;
-  /// infinity where there is no solution.
-  [[nodiscard]] double least_with_lag(const Minimum& near) const;
-
-  /// Fits Coulomb friction as a low-pass filter of the sensor shows it (docs/model.md section 7) to all cycles. The
-  /// delay of the filter is a parameter; its order is the one of a few that explains the cycles best. The result is
-  /// empty where no start converges, and where the cycles that compare the terms already rule the filter out against
-  /// `other`.
-  [[nodiscard]] std::optional<DampedFit> behind_filter(const BlockFit& other) const;
+  /// Fits Coulomb friction as a low-pass filter shows it, in place of an average that nobody stated. The delay of the
+  /// filter is a parameter. The starts begin at the slips of `near`, a fit of the cycles that compare the terms.
+  /// Returns the best minimum; empty where no start leads to a solution.
+  [[nodiscard]] std::optional<Minimum> behind_filter(const BlockFit& from, std::span<const FilterStart> starts) const;
 
   /// Twice the logarithm of the likelihood ratio of two sums of squares of these cycles, each at its best noise. Above
   /// 0 where `better` is smaller.

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
 #include <string>
 #include <utility>
@@ -62,6 +64,9 @@ Candidate judged(Candidate candidate, const DampedFit& fit, const DampedFit& cou
   return candidate;
 }
 
+/// Orders of the filters that bracket those of amplifiers and loggers, and their corner over w_n to begin with.
+constexpr std::array<std::size_t, 2> kFilterOrders{2, 4};
+constexpr double kFilterCorner = 3.0;
 constexpr double kFilterReach = 3.0;  // of 1 / w_n: a filter of fourth order at 3 w_n decays to e^-3
 constexpr double kHopeful = 1.1 * thresholds::kHalvedStack;
 
@@ -181,13 +186,29 @@ WeakeningTrial with_both(WeakeningTrial trial, const FitInput& input, const Term
   return trial;
 }
 
+/// Fits a low-pass filter of the instrument to all cycles, in place of the friction that weakens of `weakening`. Empty
+/// where some of the cycles rule it out.
+std::optional<DampedFit> fit_filter(const FitInput& input, const DampedFit& coulomb, const BlockFit& weakening) {
+  const double omega_rad_per_s = std::exp(coulomb.blocks.parameters.values(kLogFrequency));
+  const auto fitter = TermFitter::create(input, coulomb, kFilterReach / omega_rad_per_s);
+  if (!fitter) return std::nullopt;
+  std::array<FilterStart, kFilterOrders.size()> starts;
+  std::transform(kFilterOrders.begin(), kFilterOrders.end(), starts.begin(), [&](std::size_t order) {
+    return FilterStart{order, butterworth_delay(order) / (kFilterCorner * omega_rad_per_s)};
+  });
+  const std::optional<Minimum> filter = fitter->behind_filter(coulomb.blocks, starts);
+  const std::optional<Minimum> rival = fitter->near(weakening);
+  if (!filter || !rival || fitter->gain_on_all(rival->sum_of_squares, filter->sum_of_squares) > kRuledOut) {
+    return std::nullopt;
+  }
+  return fitter->fit(filter->blocks);
+}
+
 /// Compares friction that weakens, which was chosen, with a low-pass filter of the instrument, which delays and skews
 /// slips as a slow onset does. Where the data do not exclude a filter that nobody stated, intervals include both fits.
 WeakeningTrial compared_with_filter(WeakeningTrial trial, const FitInput& input, const DampedFit& coulomb) {
   if (input.recording.conditions().sensor_bandwidth_Hz) return trial;
-  const double omega_rad_per_s = std::exp(coulomb.blocks.parameters.values(kLogFrequency));
-  const auto fitter = TermFitter::create(input, coulomb, kFilterReach / omega_rad_per_s);
-  const std::optional<DampedFit> filter = fitter ? fitter->behind_filter(trial.fit->blocks) : std::nullopt;
+  const std::optional<DampedFit> filter = fit_filter(input, coulomb, trial.fit->blocks);
   if (!filter || !has_slips_of_the_model(*filter)) return trial;
   const double by_parameters = trial.fit->average ? -2.0 : 0.0;  // W is one more
   if (gain_on_same_samples(*trial.fit, *filter) + 2.0 + by_parameters > thresholds::kTierPrice) return trial;
