@@ -25,7 +25,8 @@ def make(out, family, seed):
     with open(folder / "manifest.csv", "w", encoding="utf-8") as manifest:
         manifest.write("id,file,speed_m_per_s" + (",normal_force_N" if loads else "") + "\n")
         for i, run in enumerate(sweep.runs):
-            write_csv(folder / f"run{i}.csv", *traces[i if run.source is None else run.source])
+            time_s, force, normal_N = traces[i if run.source is None else run.source]
+            write_csv(folder / f"run{i}.csv", time_s, force, normal_N=normal_N)
             load = f",{run.stated_load:.6g}" if loads else ""
             manifest.write(f"run{i},run{i}.csv,{run.stated_speed or run.speed:.9g}{load}\n")
     return {"id": folder.name, "family": family, "speeds_m_per_s": [r.speed for r in sweep.runs], **sweeps.truth_of(sweep)}

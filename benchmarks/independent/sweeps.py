@@ -25,6 +25,7 @@ class Run:
     source: int = None   # the trace is that of this other recording
     per_slip: float = None  # samples; None: the sweep's
     start: float = None  # force; None: that of kinetic friction
+    measured_load: float = None  # N, at the level of kinetic friction; None: there is no column of the normal force
 
 
 @dataclasses.dataclass
@@ -342,6 +343,15 @@ def depth(rng):
     return draw(rng, 4, rng.uniform(4, 8), bend)
 
 
+def depth_measured(rng):
+    """The same with a column of the normal force."""
+    sweep = depth(rng)
+    load = sweep.runs[0].kinetic / rng.uniform(0.3, 1.0)
+    for run in sweep.runs:
+        run.measured_load = load
+    return sweep
+
+
 def near_critical(rng):
     """The fastest recordings stand near the end of stick-slip and beyond it."""
     sweep = draw(rng, 6, rng.uniform(20, 40), zeta=(0.1, 0.3), fastest=(1.0, 2.5))
@@ -401,7 +411,11 @@ def trace(sweep, run):
     force = motion.force[::fine] + run.offset
     if run.average:
         force = np.convolve(np.pad(force, run.average, "edge"), np.ones(run.average) / run.average, "same")[run.average:-run.average]
-    return motion.time_s[::fine], force + sweep.noise * rng.standard_normal(n)
+    measured = force + sweep.noise * rng.standard_normal(n)
+    if run.measured_load is None:
+        return motion.time_s[::fine], measured, None
+    follows = 1 + model.load_slope * (motion.force[::fine] - run.kinetic) / run.kinetic
+    return motion.time_s[::fine], measured, run.measured_load * (follows + 1e-3 * rng.standard_normal(n))
 
 
 def limit_period(model, drop, kinetic, speed):
@@ -465,4 +479,4 @@ def parameters_of(sweep, sound):
 
 FAMILIES = [coulomb5, coulomb3, exponential, exponential_strong, age_ln3, age_ln4, age_ln6, age_cutoff, age_wide, age_terms, age_power, age_saturating, age_exponential, log_falling,
             log_rising, hyperbolic, two, two_coulomb, narrow, trended, grown, grown_loosely, loose, averaging, rings, rings_otherwise, drifting, zeros, wrong_loads,
-            adhesion, undersampled, near_critical, relaxing, flash, depth, bad_speed, bad_unit, other_material, one_file_twice, swapped, level_only]
+            adhesion, undersampled, near_critical, relaxing, flash, depth, depth_measured, bad_speed, bad_unit, other_material, one_file_twice, swapped, level_only]

@@ -10,9 +10,11 @@
 #include "core/thresholds.hpp"
 #include "core/unknown.hpp"
 #include "fit/inference/intervals.hpp"
+#include "fit/inference/load_response.hpp"
 #include "fit/inference/sensor_time.hpp"
 #include "fit/inference/sliding_model.hpp"
 #include "fit/inference/sweep_outcome.hpp"
+#include "fit/inference/weighted_mean.hpp"
 #include "fit/report/findings.hpp"
 #include "fit/report/open_damping.hpp"
 #include "fit/report/trend_notes.hpp"
@@ -125,6 +127,7 @@ class Assembler {
     findings.cycles = solution.cycles();
     findings.mass_gives_frequency = data_.mass.has_value();
     findings.frequency_tested = data_.motion.has_value();
+    findings.load_response = load_response();
     findings.samples_per_slip = samples_per_slip(recordings_, data_);
     findings.sample_interval_s = recordings_[data_.fitted.front()].recording.sample_interval_s();
     if (fit::residual_over_noise(recordings_, data_, solution) > thresholds::kLargeChi2) {
@@ -163,6 +166,22 @@ class Assembler {
     findings.slip_doubt = "the slips are rounded as by sensor averaging over a time that the data do not determine";
     findings.warnings.push_back(
         {"samples_averaged", findings.slip_doubt + ": state it with --sensor-average if it is known"});
+  }
+
+  /// Returns the mean response of the normal force in the recordings that measured one.
+  [[nodiscard]] std::optional<fit::LoadResponse> load_response() const {
+    std::vector<fit::Measured> shares;
+    for (std::size_t r = 0; r < data_.fitted.size(); ++r) {
+      const std::size_t i = data_.fitted[r];
+      const Recording& recording = recordings_[i].recording;
+      const fit::Jet friction = model_.level + model_.excess_friction(recording.conditions().speed_m_per_s);
+      const auto one =
+          fit::load_response(recording, data_.loads[i] * friction.a, outcome_.solution.recordings[r].size());
+      if (one) shares.push_back({one->share, one->standard_error});
+    }
+    if (shares.empty()) return std::nullopt;
+    const fit::WeightedMean mean = fit::weighted_mean(shares);
+    return fit::LoadResponse{mean.value, mean.standard_error, 0.0};
   }
 
   void add_difference_doubt(fit::Findings& findings) const {

@@ -365,3 +365,33 @@ TEST_CASE("sweep: under Coulomb friction a steady recording is a value of F_k, a
   CHECK(sweep.fit->result.tier == Tier::Damped);
   check_recovery(sweep, scene);
 }
+
+TEST_CASE("in a sweep, too, a measured load that follows the force is in the mass") {
+  // With F_k = mu F_n and F_n = F_n0 + s (F - F_0) the slips are those of a spring of k (1 - mu s): docs/model.md (31).
+  constexpr double kShare = 0.15;
+  constexpr double kLoad_N = 10.0;
+  const SweepScene scene{.f1_N = 0.0};
+  const std::vector<SweepEntry> plain = test::record_sweep(scene, kSpeeds);
+  const double coefficient = scene.kinetic_friction_N() / kLoad_N;
+  std::vector<SweepEntry> measured = plain;
+  for (SweepEntry& entry : measured) {
+    const auto time_s = entry.recording.time_s();
+    const auto force = entry.recording.force();
+    std::vector<double> load_N;
+    for (const double one : force) {
+      load_N.push_back(kLoad_N + kShare / coefficient * (one - scene.kinetic_friction_N()));
+    }
+    entry.recording = Recording::create({time_s.begin(), time_s.end()}, {force.begin(), force.end()},
+                                        entry.recording.conditions(), {}, load_N)
+                          .value();
+  }
+  const SweepAnalysis without = analyze_sweep(plain);
+  const SweepAnalysis with = analyze_sweep(measured);
+  CHECK(*parameter(with, "mass_kg").estimate.value ==
+        Approx((1.0 - kShare) * *parameter(without, "mass_kg").estimate.value).epsilon(2e-3));
+  for (const char* name : {"damping_ratio", "friction_difference_N"}) {
+    INFO(name);
+    CHECK(parameter(without, name).status == ParameterStatus::Identified);
+    CHECK(parameter(with, name).status == ParameterStatus::Conditional);
+  }
+}

@@ -1,5 +1,6 @@
 #include "fit/inference/load_response.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <span>
 
@@ -9,6 +10,7 @@
 namespace slipfit::fit {
 
 std::optional<LoadResponse> load_response(const Recording& recording, double kinetic_force, std::size_t cycles) {
+  constexpr double kLeastError = 1e-6;  // no column is exact
   const std::span<const double> load_N = recording.normal_force_N();
   const std::span<const double> force = recording.force();
   if (load_N.empty() || recording.conditions().quantity != ForceQuantity::Force_N) return std::nullopt;
@@ -18,7 +20,8 @@ std::optional<LoadResponse> load_response(const Recording& recording, double kin
   const double friction_coefficient = kinetic_force / line.at(kinetic_force);
   // What the load does besides is of one cycle: noise, or the texture of the surface.
   const double error = line.slope_error() * std::sqrt(line.count / static_cast<double>(cycles));
-  const LoadResponse response{friction_coefficient * line.slope(), std::abs(friction_coefficient) * error};
+  const LoadResponse response{friction_coefficient * line.slope(),
+                              std::max(kLeastError, std::abs(friction_coefficient) * error), line.slope()};
   const bool is_clear = std::abs(response.share) > thresholds::kClearSigmas * response.standard_error &&
                         std::abs(response.share) > thresholds::kNegligible && response.share < 1.0;
   return is_clear ? std::optional(response) : std::nullopt;

@@ -10,8 +10,9 @@ namespace slipfit::fit {
 /// A normal force that follows the tangential force, as that of a holder which bends at fixed depth does.
 /// docs/model.md (31)
 struct LoadResponse {
-  double share = 0.0;  ///< mu dF_n/dF: by this share of its change the force is less apart from friction
-  double standard_error = 0.0;
+  double share = 0.0;           ///< mu dF_n/dF: by this share of its change the force is less apart from friction
+  double standard_error = 0.0;  ///< above 0
+  double slope = 0.0;           ///< dF_n/dF; 0 in the mean of several recordings
 };
 
 /// Returns the response of the measured normal force over the recording. `kinetic_force`: about which the slips swing,

@@ -5,7 +5,9 @@
 #include <numeric>
 #include <utility>
 
+#include "fit/inference/load_response.hpp"
 #include "fit/inference/moderated.hpp"
+#include "fit/inference/weighted_mean.hpp"
 #include "fit/selection/own_fits.hpp"
 #include "signal/robust.hpp"
 
@@ -46,17 +48,45 @@ SteadyRun steady_run(const Recording& recording, double load) {
   return run;
 }
 
-/// Returns the mean normal force of the recordings; it is empty where one of them does not state it.
-std::optional<double> mean_load_N(std::span<const SweepRecording> recordings) {
-  std::vector<double> loads;
-  for (const SweepRecording& sweep : recordings) {
-    const std::optional<double>& load = sweep.recording.conditions().normal_force_N;
-    if (!load) return std::nullopt;
-    loads.push_back(*load);
+/// Returns the normal forces of the recordings in N, empty where one is not known. Where the measured ones follow the
+/// force as F_n = a + s F, friction of mu F_n is F_k = mu a / (1 - mu s), and the load there is a / (1 - mu s). s and
+/// mu s are the means of the recordings, so that their errors make no load differ from another.
+std::vector<std::optional<double>> loads_N(std::span<const SweepRecording> recordings,
+                                           const std::vector<std::optional<DampedFit>>& fits) {
+  std::vector<std::optional<double>> loads;
+  std::vector<std::size_t> following;
+  std::vector<Measured> shares, slopes;
+  for (std::size_t i = 0; i < recordings.size(); ++i) {
+    const Recording& recording = recordings[i].recording;
+    loads.push_back(recording.conditions().normal_force_N);
+    const auto response = fits[i] ? load_response(recording, level_of(*fits[i]), fits[i]->blocks.size()) : std::nullopt;
+    if (!response) continue;
+    following.push_back(i);
+    shares.push_back({response->share, response->standard_error});
+    slopes.push_back({response->slope, response->standard_error * std::abs(response->slope / response->share)});
   }
-  const double mean = std::accumulate(loads.begin(), loads.end(), 0.0) / static_cast<double>(loads.size());
-  const auto [low, high] = std::minmax_element(loads.begin(), loads.end());
-  return std::clamp(mean, *low, *high);  // exactly the load where all are the same
+  if (following.empty()) return loads;
+  const double share = weighted_mean(shares).value;
+  const double slope = weighted_mean(slopes).value;
+  for (const std::size_t i : following) {
+    const Recording& recording = recordings[i].recording;
+    loads[i] = (describe(recording.normal_force_N()).mean - slope * describe(recording.force()).mean) / (1.0 - share);
+  }
+  return loads;
+}
+
+/// Adds the normal forces of the recordings, if all are known.
+void add_loads(std::span<const SweepRecording> recordings, SweepData& data) {
+  data.loads.assign(recordings.size(), 1.0);
+  std::vector<double> known_N;
+  for (const std::optional<double>& load : loads_N(recordings, data.single)) {
+    if (!load) return;
+    known_N.push_back(*load);
+  }
+  const double mean = std::accumulate(known_N.begin(), known_N.end(), 0.0) / static_cast<double>(known_N.size());
+  const auto [low, high] = std::minmax_element(known_N.begin(), known_N.end());
+  data.mean_load_N = std::clamp(mean, *low, *high);  // exactly the load where all are the same
+  for (std::size_t i = 0; i < recordings.size(); ++i) data.loads[i] = known_N[i] / *data.mean_load_N;
 }
 
 /// Scatter of each recording's onset force, moderated: strokes and short runs have three cycles each.
@@ -122,19 +152,18 @@ SweepData prepare_sweep(std::span<const SweepRecording> recordings, const FitOpt
                         const std::optional<FittedAverage>& known) {
   SweepData data;
   data.notify_step = options.notify_step;
-  data.mean_load_N = mean_load_N(recordings);
   OwnFits own = fit_each(recordings, options.held, known);
   data.single = std::move(own.fits);
   data.average = own.average;
   data.rounding_s2 = own.rounding_s2;
   data.mass = own.mass;
+  add_loads(recordings, data);
   for (std::size_t i = 0; i < recordings.size(); ++i) {
     const SweepRecording& sweep = recordings[i];
-    data.loads.push_back(data.mean_load_N ? *sweep.recording.conditions().normal_force_N / *data.mean_load_N : 1.0);
     data.steady_of.emplace_back();
     if (sweep.role == SweepRole::Steady) {
       data.steady_of.back() = data.steady.size();
-      data.steady.push_back(steady_run(sweep.recording, data.loads.back()));
+      data.steady.push_back(steady_run(sweep.recording, data.loads[i]));
     }
     if (data.single[i]) data.fitted.push_back(i);
   }

@@ -29,7 +29,8 @@ inline constexpr const char* kSlipsAlone =
     "higher): --mass tests this";
 /// States the same where the measured normal force changes within a slip.
 inline constexpr const char* kLoadFollows =
-    "the measured normal force follows the force, and friction with it: m includes this, w_n is that of the slips";
+    "the measured normal force follows the force, and friction with it: m includes this; w_n, zeta and F_s - F_k are "
+    "those of the slips";
 /// States what both depend on, for FitResult::conditional_on.
 inline constexpr const char* kSameWithinSlip = "friction and a load that stay the same within a slip (w_n and m)";
 

@@ -123,8 +123,8 @@ class Reporter {
     const Estimate difference = of_rest_.interval_of_one_sign(model_.difference);
     const bool ages = f_.law && f_.law->ageing;
     const std::string doubt = slip_doubt().empty() ? f_.difference_doubt : slip_doubt();
-    const ParameterStatus of_difference = at_one_speed(graded(id, difference, doubt));
-    std::string note = of_difference == ParameterStatus::Conditional ? kOneSpeed : or_few_cycles(doubt);
+    const ParameterStatus of_difference = on_assumption(graded(id, difference, doubt));
+    std::string note = of_difference == ParameterStatus::Conditional ? assumption() : or_few_cycles(doubt);
     if (ages) note += fmt::format("{}at a stick time of {:.3g} s", note.empty() ? "" : "; ", f_.units.stick_s);
     add(id, difference, of_difference, note);
     report_absolute(in_unit(Id::StaticFriction, Id::StaticFrictionCoefficient), model_.level + model_.difference);
@@ -145,8 +145,8 @@ class Reporter {
     ParameterStatus status = graded(id, estimate, slip_doubt());
     if (f_.zero_known && f_.level_doubt.empty()) {
       // The peaks show F_s whatever the law.
-      if (id == Id::KineticFriction || id == Id::KineticFrictionCoefficient) status = at_one_speed(status);
-      return add(id, estimate, status, status == ParameterStatus::Conditional ? kOneSpeed : slip_note());
+      if (id == Id::KineticFriction || id == Id::KineticFrictionCoefficient) status = on_assumption(status);
+      return add(id, estimate, status, status == ParameterStatus::Conditional ? assumption() : slip_note());
     }
     add(id, estimate, status == ParameterStatus::Identified ? ParameterStatus::Conditional : status,
         f_.zero_known ? f_.level_doubt : kZeroUnknown);
@@ -187,11 +187,15 @@ class Reporter {
     add(id, estimate, ParameterStatus::Conditional, f_.load_response ? kLoadFollows : kSlipsAlone);
   }
 
-  /// Returns the status of F_s - F_k or zeta, which one speed cannot distinguish from friction that depends on the
-  /// speed.
-  [[nodiscard]] ParameterStatus at_one_speed(ParameterStatus status) const {
-    const bool is_one = !f_.law || f_.law->at_one_speed;
-    return status == ParameterStatus::Identified && is_one ? ParameterStatus::Conditional : status;
+  /// Returns the assumption on which F_s - F_k and zeta rest; empty where there is none.
+  [[nodiscard]] std::string assumption() const {
+    if (!f_.law || f_.law->at_one_speed) return kOneSpeed;
+    return f_.load_response ? kLoadFollows : "";
+  }
+
+  /// Returns the status of F_s - F_k, zeta or what follows from them.
+  [[nodiscard]] ParameterStatus on_assumption(ParameterStatus status) const {
+    return status == ParameterStatus::Identified && !assumption().empty() ? ParameterStatus::Conditional : status;
   }
 
   void report_mass() {
@@ -261,11 +265,11 @@ class Reporter {
     if (f_.held[kDamping]) return add_held(Id::DampingRatio, model_.zeta.a);
     if (!f_.damping_known()) return add_unknown(Id::DampingRatio, f_.damping.note);
     const std::string doubt = slip_doubt().empty() ? f_.damping_doubt : slip_doubt();
-    const ParameterStatus status = at_one_speed(graded(Id::DampingRatio, f_.damping, doubt));
+    const ParameterStatus status = on_assumption(graded(Id::DampingRatio, f_.damping, doubt));
     const std::string why = or_few_cycles(doubt);
     add(Id::DampingRatio, f_.damping, status,
         status == ParameterStatus::Weak          ? (why.empty() ? weak_damping(f_.damping) : why)
-        : status == ParameterStatus::Conditional ? kOneSpeed
+        : status == ParameterStatus::Conditional ? assumption()
                                                  : "");
     if (!f_.in_newtons) return;
     // c = 2 zeta k / w_n, [Paper] eq. (6); zeta is never negative, and nor is c.
@@ -275,7 +279,7 @@ class Reporter {
     Estimate c = f_.intervals.interval_of(zeta * unit);
     c.value = std::max(0.0, *c.value);
     c.ci95 = Interval{f_.damping.ci95->low * unit.a, std::max(f_.damping.ci95->high * unit.a, c.ci95->high)};
-    add(Id::DampingCoefficient, c, status, status == ParameterStatus::Conditional ? kOneSpeed : "");
+    add(Id::DampingCoefficient, c, status, status == ParameterStatus::Conditional ? assumption() : "");
   }
 
   void report_slip_distance() {
@@ -290,8 +294,8 @@ class Reporter {
       const std::string why = slip_doubt().empty() ? kRiseOfTimeOrDistance : slip_doubt();
       return add_graded(Id::SlipDistance, including_relaxation(distance, of_stiffness), why, why);
     }
-    const ParameterStatus status = at_one_speed(graded(Id::SlipDistance, distance, slip_doubt()));
-    add(Id::SlipDistance, distance, status, status == ParameterStatus::Conditional ? kOneSpeed : slip_note());
+    const ParameterStatus status = on_assumption(graded(Id::SlipDistance, distance, slip_doubt()));
+    add(Id::SlipDistance, distance, status, status == ParameterStatus::Conditional ? assumption() : slip_note());
   }
 
   void report_average(const Estimate& average) {
