@@ -361,6 +361,10 @@ class Fit:
         meant = [key for key in (*self.parameters, "periodic_displacement_m") if key.startswith(name + "_")]
         return meant[0] if len(meant) == 1 else name
 
+    def details(self) -> str:
+        """All results as text, as ``slipfit fit --details`` prints them."""
+        return self._result().text()
+
     def report(self, path: Path) -> None:
         """Write a page to look at, to print and to send (one HTML file, no network)."""
         write_page(path, self._result().page(f"slipfit.{self._options.kind}(...)  # Python"))
@@ -383,8 +387,8 @@ class Fit:
     # Python
 
     def __str__(self) -> str:
-        """As ``slipfit fit --details`` prints it; of a saved result without a recording its numbers."""
-        return _numbers_as_text(self) if self._recording is None else self._result().text()
+        """The summary that ``slipfit fit`` prints; of a saved result without a recording its numbers."""
+        return _numbers_as_text(self) if self._recording is None else self._result().summary()
 
     def __repr__(self) -> str:
         known = f", stiffness {self.stiffness}" if self.parameters else ""

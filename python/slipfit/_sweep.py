@@ -149,7 +149,11 @@ class Sweep(Fit):
         return _plot.sweep(self, kind, ax)
 
     def __str__(self) -> str:
-        return self._swept().text(self._id) if self._all else _numbers_as_text(self)
+        return self._swept().summary(self._id) if self._all else _numbers_as_text(self)
+
+    def details(self) -> str:
+        """All results as text, as ``slipfit fit --joint --details`` prints them."""
+        return self._swept().text(self._id)
 
     def __repr__(self) -> str:
         known = f", stiffness {self.stiffness}" if self.parameters else ""

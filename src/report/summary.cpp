@@ -84,7 +84,7 @@ class Screen {
   void add_text(const std::string& text) { below_.push_back(wrapped("  ", text)); }
   void add_warnings(const Warnings& warnings);
 
-  [[nodiscard]] std::string text() const;
+  [[nodiscard]] std::string text(const SummaryHints& hints) const;
 
  private:
   /// Returns the note, or the note of another row with which it begins and the rest.
@@ -131,7 +131,7 @@ void Screen::add_warnings(const Warnings& warnings) {
   }
 }
 
-std::string Screen::text() const {
+std::string Screen::text(const SummaryHints& hints) const {
   std::string text = headline_ + "\n";
   std::size_t lines = 1;
   const auto put = [&](const std::string& line) {
@@ -164,9 +164,10 @@ std::string Screen::text() const {
     if (!fits) ++left_out;
     for (std::size_t i = 0; fits && i < warning.size(); ++i) put(warning[i]);
   }
-  if (left_out > 0) put(fmt::format("  ! {} more {}: --details", left_out, left_out == 1 ? "warning" : "warnings"));
+  if (left_out > 0)
+    put(fmt::format("  ! {} more {}: {}", left_out, left_out == 1 ? "warning" : "warnings", hints.details));
   put("");
-  put("  all results: --details or --json      page with charts: --report FILE.html");
+  put("  " + hints.all);
   return text;
 }
 
@@ -281,7 +282,7 @@ std::string headline_of(const Recording& recording, const Analysis& analysis) {
   return text + ", driven at " + speed_text(recording.conditions());
 }
 
-std::string to_summary(const Recording& recording, const Analysis& analysis) {
+std::string to_summary(const Recording& recording, const Analysis& analysis, const SummaryHints& hints) {
   const Conditions& conditions = recording.conditions();
   Screen screen(headline_of(recording, analysis));
   const bool has_slips = analysis.motion != MotionClass::SteadySliding;
@@ -304,15 +305,16 @@ std::string to_summary(const Recording& recording, const Analysis& analysis) {
   if (has_fit) add_below_table(screen, *analysis.fit, conditions.quantity);
   if (const std::string facts = facts_text(analysis.warnings); !facts.empty()) screen.add_text(facts);
   screen.add_warnings(analysis.warnings);
-  return screen.text();
+  return screen.text(hints);
 }
 
-std::string to_summary(std::span<const SweepEntry> entries, const SweepAnalysis& sweep, const std::string& name) {
+std::string to_summary(std::span<const SweepEntry> entries, const SweepAnalysis& sweep, const std::string& name,
+                       const SummaryHints& hints) {
   if (!sweep.fit) {
     Screen screen(fmt::format("{}: {} recordings, no joint fit", printable(name), entries.size()));
     screen.add_text(sentence("Reason: " + sweep.fit_reason));
     screen.add_warnings(sweep.warnings);
-    return screen.text();
+    return screen.text(hints);
   }
   Screen screen(fmt::format("{}: {} recordings fitted together", printable(name), entries.size()));
   const bool zero_is_known = std::ranges::all_of(
@@ -335,7 +337,7 @@ std::string to_summary(std::span<const SweepEntry> entries, const SweepAnalysis&
          estimate_text(sweep.fit->points[i].spacing_left_out_m, "m")});
   }
   screen.add_warnings(sweep.warnings);
-  return screen.text();
+  return screen.text(hints);
 }
 
 }  // namespace slipfit

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "slipfit/report/json.hpp"
+#include "slipfit/report/text.hpp"
 #include "slipfit/sweep.hpp"
 
 namespace slipfit {
@@ -13,7 +14,8 @@ namespace slipfit {
 std::string to_json(std::span<const SweepEntry> entries, const SweepAnalysis& sweep, const JsonOptions& options = {});
 
 /// Writes the summary of a sweep on one screen, like `to_summary` of a recording.
-std::string to_summary(std::span<const SweepEntry> entries, const SweepAnalysis& sweep, const std::string& name);
+std::string to_summary(std::span<const SweepEntry> entries, const SweepAnalysis& sweep, const std::string& name,
+                       const SummaryHints& hints = {});
 
 /// Writes all results as text: shared parameters, the recordings against speed, and the prediction for each of them by
 /// a fit without it.

@@ -7,9 +7,15 @@
 
 namespace slipfit {
 
+/// How a reader of a summary gets at the rest: by options of the command, unless stated otherwise.
+struct SummaryHints {
+  std::string details = "--details";  ///< of all warnings
+  std::string all = "all results: --details or --json      page with charts: --report FILE.html";
+};
+
 /// Writes the summary, on one screen: at most 25 lines of 100 characters with the kind of motion, parameters, spacing
 /// and critical speed with intervals and statuses, and the warnings with the largest effect.
-std::string to_summary(const Recording& recording, const Analysis& analysis);
+std::string to_summary(const Recording& recording, const Analysis& analysis, const SummaryHints& hints = {});
 
 /// Writes all results as text: kind of motion, parameters with intervals and status, spacing (measured, separate from
 /// predicted), warnings.
