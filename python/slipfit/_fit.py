@@ -387,8 +387,8 @@ class Fit:
     # Python
 
     def __str__(self) -> str:
-        """The summary that ``slipfit fit`` prints; of a saved result without a recording its numbers."""
-        return _numbers_as_text(self) if self._recording is None else self._result().summary()
+        """The summary that ``slipfit fit`` prints, in words of Python; of a saved result without a recording its numbers."""
+        return _numbers_as_text(self) if self._recording is None else in_words_of_python(self._result().summary())
 
     def __repr__(self) -> str:
         known = f", stiffness {self.stiffness}" if self.parameters else ""

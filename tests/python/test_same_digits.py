@@ -56,8 +56,9 @@ def test_text(demo_fit):
     words = ("fit", TESTDATA / "demo.csv", "--speed", "10mm/s")
     assert demo_fit.details() == printed(*words, "--details").stdout
     ours, theirs = str(demo_fit).splitlines(), printed(*words).stdout.splitlines()
-    assert ours[1:-1] == theirs[1:-1] and len(ours) <= 25
+    assert ours[2:9] == theirs[2:9] and len(ours) == len(theirs) <= 25
     assert ".details()" in ours[-1] and "--details" in theirs[-1]
+    assert "--" not in str(demo_fit) and 'drift="sensor"' in str(demo_fit)
 
 
 def test_cycles_and_curve(demo_fit, tmp_path):

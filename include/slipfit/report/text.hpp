@@ -7,7 +7,7 @@
 
 namespace slipfit {
 
-/// How a reader of a summary gets at the rest: by options of the command, unless stated otherwise.
+/// Says how a reader of a summary finds the rest: by options of the command, unless stated otherwise.
 struct SummaryHints {
   std::string details = "--details";  ///< of all warnings
   std::string all = "all results: --details or --json      page with charts: --report FILE.html";
