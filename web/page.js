@@ -217,7 +217,10 @@
   async function present() {
     show("result", true);
     const page = at("page");
-    const fitHeight = () => { page.style.height = `${page.contentDocument.documentElement.scrollHeight + 4}px`; };
+    const fitHeight = () => {
+      const shown = page.contentDocument?.documentElement; // none while the next page replaces it
+      if (shown) page.style.height = `${shown.scrollHeight + 4}px`;
+    };
     await new Promise((done) => {
       page.onload = done;
       page.srcdoc = fitted.outputs.report;

@@ -186,11 +186,12 @@ const simulate = (name, options) => {
   return file;
 };
 
-test("no task of the page takes longer than 100 ms", { skip: skip || (isFirefox && "tasks are measured in Chromium") }, async (context) => {
+test("once it has opened, no task of the page takes as long as opening it", { skip: skip || (isFirefox && "tasks are measured in Chromium") }, async (context) => {
   const file = simulate("long.csv", ["--speed", "10mm/s", "--duration", "40s"]);
   const page = await browser.newPage({ viewport: { width: 1280, height: 900 } });
-  await browser.startTracing(page, { categories: ["toplevel", "v8", "__metadata"] });
+  await browser.startTracing(page, { categories: ["toplevel", "v8", "blink.user_timing", "__metadata"] });
   await page.goto(pathToFileURL(WEB_PAGE).href);
+  await page.evaluate(() => performance.mark("opened"));
   await openDemo(page, file);
   await page.fill("#option-speed", "10");
   await page.keyboard.press("Tab");
@@ -207,10 +208,14 @@ test("no task of the page takes longer than 100 ms", { skip: skip || (isFirefox 
   const modules = ofPage.filter((event) => event.name === "v8.evaluateModule");
   const isOfTest = (task) => modules.some((module) => module.tid === task.tid && module.ts >= task.ts && module.ts < task.ts + task.dur);
   const tasks = ofPage.filter((event) => event.name.endsWith("RunTask") && !isOfTest(event));
-  const longest = Math.max(...tasks.map((task) => task.tdur / 1000));
-  context.diagnostic(`${tasks.length} tasks, the longest takes ${longest.toFixed(0)} ms of processor time`);
+  // A ratio of two times of one run does not depend on the machine: a browser opens 3.8 MB about as quickly as a person notices.
+  const opened = traceEvents.find((event) => event.name === "opened").ts;
+  const times_ms = (isWanted) => tasks.filter(isWanted).map((task) => task.tdur / 1000);
+  const opening = times_ms((task) => task.ts < opened).reduce((sum, ms) => sum + ms, 0);
+  const longest = Math.max(...times_ms((task) => task.ts > opened));
+  context.diagnostic(`${tasks.length} tasks, the longest takes ${longest.toFixed(0)} ms of processor time, opening the page ${opening.toFixed(0)} ms`);
   assert.ok(tasks.length > 100);
-  assert.ok(longest <= 100, `a task takes ${longest} ms`);
+  assert.ok(longest < opening, `a task takes ${longest} ms, opening the page ${opening} ms`);
   await page.close();
 });
 
