@@ -135,7 +135,7 @@ std::optional<std::string> swept_prediction_of(const AnalysedSweep& result) {
   return prediction ? std::optional(to_json(*prediction, {})) : std::nullopt;
 }
 
-/// Where a summary points to, in Python.
+/// Returns the words by which a summary points to the rest of the results in Python.
 SummaryHints hints() {
   return {".details()", "all results: .details() or .to_dict()      page with charts: .report(\"FILE.html\")"};
 }

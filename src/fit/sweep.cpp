@@ -14,7 +14,6 @@
 #include "fit/inference/sensor_time.hpp"
 #include "fit/inference/sliding_model.hpp"
 #include "fit/inference/sweep_outcome.hpp"
-#include "fit/inference/weighted_mean.hpp"
 #include "fit/report/findings.hpp"
 #include "fit/report/open_damping.hpp"
 #include "fit/report/trend_notes.hpp"
@@ -170,18 +169,16 @@ class Assembler {
 
   /// Returns the mean response of the normal force in the recordings that measured one.
   [[nodiscard]] std::optional<fit::LoadResponse> load_response() const {
-    std::vector<fit::Measured> shares;
+    std::vector<fit::LoadResponse> responses;
     for (std::size_t r = 0; r < data_.fitted.size(); ++r) {
       const std::size_t i = data_.fitted[r];
       const Recording& recording = recordings_[i].recording;
       const fit::Jet friction = model_.level + model_.excess_friction(recording.conditions().speed_m_per_s);
       const auto one =
           fit::load_response(recording, data_.loads[i] * friction.a, outcome_.solution.recordings[r].size());
-      if (one) shares.push_back({one->share, one->standard_error});
+      if (one) responses.push_back(*one);
     }
-    if (shares.empty()) return std::nullopt;
-    const fit::WeightedMean mean = fit::weighted_mean(shares);
-    return fit::LoadResponse{mean.value, mean.standard_error, 0.0};
+    return responses.empty() ? std::nullopt : std::optional(fit::mean_response(responses));
   }
 
   void add_difference_doubt(fit::Findings& findings) const {

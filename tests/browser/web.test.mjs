@@ -186,7 +186,7 @@ const simulate = (name, options) => {
   return file;
 };
 
-test("once it has opened, no task of the page takes as long as opening it", { skip: skip || (isFirefox && "tasks are measured in Chromium") }, async (context) => {
+test("once it has opened, no task of the page takes half as long as opening it", { skip: skip || (isFirefox && "tasks are measured in Chromium") }, async (context) => {
   const file = simulate("long.csv", ["--speed", "10mm/s", "--duration", "40s"]);
   const page = await browser.newPage({ viewport: { width: 1280, height: 900 } });
   await browser.startTracing(page, { categories: ["toplevel", "v8", "blink.user_timing", "__metadata"] });
@@ -208,14 +208,14 @@ test("once it has opened, no task of the page takes as long as opening it", { sk
   const modules = ofPage.filter((event) => event.name === "v8.evaluateModule");
   const isOfTest = (task) => modules.some((module) => module.tid === task.tid && module.ts >= task.ts && module.ts < task.ts + task.dur);
   const tasks = ofPage.filter((event) => event.name.endsWith("RunTask") && !isOfTest(event));
-  // A ratio of two times of one run does not depend on the machine: a browser opens 3.8 MB about as quickly as a person notices.
+  // A ratio of two times of one run does not depend on the machine. A fit in the thread of the page would take longer than opening it.
   const opened = traceEvents.find((event) => event.name === "opened").ts;
   const times_ms = (isWanted) => tasks.filter(isWanted).map((task) => task.tdur / 1000);
   const opening = times_ms((task) => task.ts < opened).reduce((sum, ms) => sum + ms, 0);
   const longest = Math.max(...times_ms((task) => task.ts > opened));
   context.diagnostic(`${tasks.length} tasks, the longest takes ${longest.toFixed(0)} ms of processor time, opening the page ${opening.toFixed(0)} ms`);
   assert.ok(tasks.length > 100);
-  assert.ok(longest < opening, `a task takes ${longest} ms, opening the page ${opening} ms`);
+  assert.ok(longest < 0.5 * opening, `a task takes ${longest} ms, opening the page ${opening} ms`);
   await page.close();
 });
 

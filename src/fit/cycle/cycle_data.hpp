@@ -104,8 +104,8 @@ struct StickBin {
 struct HumLines {
   std::vector<double> frequencies_Hz;
   double begin_s = 0.0;
-  std::vector<double>
-      force_without_lines{};  ///< of every sample without the lines, where it is known: bins scatter about it
+  /// Force of every sample without the lines, about which bins scatter; empty where it is not known.
+  std::vector<double> force_without_lines{};
 };
 
 /// One cycle of the fit: a slip with half of the ramp on either side.

@@ -6,6 +6,7 @@
 
 #include "core/fit_thresholds.hpp"
 #include "core/line_sums.hpp"
+#include "fit/inference/weighted_mean.hpp"
 
 namespace slipfit::fit {
 
@@ -25,6 +26,16 @@ std::optional<LoadResponse> load_response(const Recording& recording, double kin
   const bool is_clear = std::abs(response.share) > thresholds::kClearSigmas * response.standard_error &&
                         std::abs(response.share) > thresholds::kNegligible && response.share < 1.0;
   return is_clear ? std::optional(response) : std::nullopt;
+}
+
+LoadResponse mean_response(const std::vector<LoadResponse>& responses) {
+  std::vector<Measured> shares, slopes;
+  for (const LoadResponse& one : responses) {
+    shares.push_back({one.share, one.standard_error});
+    slopes.push_back({one.slope, one.standard_error * std::abs(one.slope / one.share)});
+  }
+  const WeightedMean share = weighted_mean(shares);
+  return {share.value, share.standard_error, weighted_mean(slopes).value};
 }
 
 }  // namespace slipfit::fit

@@ -7,7 +7,6 @@
 
 #include "fit/inference/load_response.hpp"
 #include "fit/inference/moderated.hpp"
-#include "fit/inference/weighted_mean.hpp"
 #include "fit/selection/own_fits.hpp"
 #include "signal/robust.hpp"
 
@@ -55,22 +54,22 @@ std::vector<std::optional<double>> loads_N(std::span<const SweepRecording> recor
                                            const std::vector<std::optional<DampedFit>>& fits) {
   std::vector<std::optional<double>> loads;
   std::vector<std::size_t> following;
-  std::vector<Measured> shares, slopes;
+  std::vector<LoadResponse> responses;
   for (std::size_t i = 0; i < recordings.size(); ++i) {
     const Recording& recording = recordings[i].recording;
     loads.push_back(recording.conditions().normal_force_N);
     const auto response = fits[i] ? load_response(recording, level_of(*fits[i]), fits[i]->blocks.size()) : std::nullopt;
     if (!response) continue;
     following.push_back(i);
-    shares.push_back({response->share, response->standard_error});
-    slopes.push_back({response->slope, response->standard_error * std::abs(response->slope / response->share)});
+    responses.push_back(*response);
   }
   if (following.empty()) return loads;
-  const double share = weighted_mean(shares).value;
-  const double slope = weighted_mean(slopes).value;
+  const LoadResponse mean = mean_response(responses);
   for (const std::size_t i : following) {
     const Recording& recording = recordings[i].recording;
-    loads[i] = (describe(recording.normal_force_N()).mean - slope * describe(recording.force()).mean) / (1.0 - share);
+    const double intercept_N =
+        describe(recording.normal_force_N()).mean - mean.slope * describe(recording.force()).mean;
+    loads[i] = intercept_N / (1.0 - mean.share);
   }
   return loads;
 }

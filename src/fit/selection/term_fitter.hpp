@@ -19,10 +19,10 @@ struct Terms {
   bool rise = false;       ///< a rise of the force after slips (section 10), where the plain fit has none
 };
 
-/// AICc by which some of the cycles rule a minimum out.
+/// A minimum whose AICc is higher by this much on some of the cycles is ruled out.
 inline constexpr double kRuledOut = 2.0 * thresholds::kTierPrice;
 
-/// A low-pass filter of the instrument to begin with.
+/// The order of a low-pass filter and the delay with which its search starts.
 struct FilterStart {
   std::size_t order = 1;
   double lag_s = 0.0;  ///< its delay (docs/model.md section 7)
@@ -57,9 +57,10 @@ class TermFitter {
   /// The fit of these cycles with the terms of `fit`, another fit of the recording. Empty where a slip has no solution.
   [[nodiscard]] std::optional<Minimum> near(const BlockFit& fit) const;
 
-  /// Fits Coulomb friction as a low-pass filter shows it, in place of an average that nobody stated. The delay of the
-  /// filter is a parameter. The starts begin at the slips of `near`, a fit of the cycles that compare the terms.
-  /// Returns the best minimum; empty where no start leads to a solution.
+  /// Fits Coulomb friction behind a low-pass filter whose delay is a parameter. The filter takes the place of an
+  /// average that nobody stated. The search starts from the slips of `from` with each of `starts`; a few cycles find
+  /// the best of them. Returns the minimum of the cycles that compare the terms, or nothing if no start leads to a
+  /// solution.
   [[nodiscard]] std::optional<Minimum> behind_filter(const BlockFit& from, std::span<const FilterStart> starts) const;
 
   /// Twice the logarithm of the likelihood ratio of two sums of squares of these cycles, each at its best noise. Above

@@ -64,10 +64,8 @@ Candidate judged(Candidate candidate, const DampedFit& fit, const DampedFit& cou
   return candidate;
 }
 
-/// Orders of the filters that bracket those of amplifiers and loggers, and their corner over w_n to begin with.
-constexpr std::array<std::size_t, 2> kFilterOrders{2, 4};
-constexpr double kFilterCorner = 3.0;
-constexpr double kFilterReach = 3.0;  // of 1 / w_n: a filter of fourth order at 3 w_n decays to e^-3
+constexpr double kFilterCorner = 3.0;  // over w_n, with which the search for a filter starts
+constexpr double kFilterReach = 3.0;   // of 1 / w_n: a filter of fourth order at 3 w_n decays to e^-3
 constexpr double kHopeful = 1.1 * thresholds::kHalvedStack;
 
 /// False where the cycles that compare the terms show that this minimum will not be taken in place of Coulomb friction:
@@ -186,17 +184,17 @@ WeakeningTrial with_both(WeakeningTrial trial, const FitInput& input, const Term
   return trial;
 }
 
-/// Fits a low-pass filter of the instrument to all cycles, in place of the friction that weakens of `weakening`. Empty
-/// where some of the cycles rule it out.
+/// Fits all cycles with Coulomb friction behind a low-pass filter of the instrument. The result is empty if the cycles
+/// that compare the terms show that `weakening` explains them much better.
 std::optional<DampedFit> fit_filter(const FitInput& input, const DampedFit& coulomb, const BlockFit& weakening) {
   const double omega_rad_per_s = std::exp(coulomb.blocks.parameters.values(kLogFrequency));
   const auto fitter = TermFitter::create(input, coulomb, kFilterReach / omega_rad_per_s);
   if (!fitter) return std::nullopt;
-  std::array<FilterStart, kFilterOrders.size()> starts;
-  std::transform(kFilterOrders.begin(), kFilterOrders.end(), starts.begin(), [&](std::size_t order) {
+  const auto start_of = [&](std::size_t order) {
     return FilterStart{order, butterworth_delay(order) / (kFilterCorner * omega_rad_per_s)};
-  });
-  const std::optional<Minimum> filter = fitter->behind_filter(coulomb.blocks, starts);
+  };
+  // The orders of most amplifiers and loggers lie between these two.
+  const std::optional<Minimum> filter = fitter->behind_filter(coulomb.blocks, std::array{start_of(2), start_of(4)});
   const std::optional<Minimum> rival = fitter->near(weakening);
   if (!filter || !rival || fitter->gain_on_all(rival->sum_of_squares, filter->sum_of_squares) > kRuledOut) {
     return std::nullopt;
