@@ -1,5 +1,6 @@
 #pragma once
 
+#include <boost/math/tools/roots.hpp>
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cstdint>
 
@@ -16,6 +17,14 @@ double root_between(const F& f, double low, double high) {
   const auto bracket = boost::math::tools::toms748_solve(f, low, high, at_low, at_high,
                                                          boost::math::tools::eps_tolerance<double>(52), evaluations);
   return 0.5 * (bracket.first + bracket.second);
+}
+
+/// The same of a function that returns its value and first two derivatives in a tuple, searched from `guess`.
+template <class F>
+double root_near(const F& f, double guess, double low, double high) {
+  constexpr int kDigits = 18;  // of the last step, in bits: the error that it leaves is of its third power
+  std::uintmax_t evaluations = 60;
+  return boost::math::tools::halley_iterate(f, guess, low, high, kDigits, evaluations);
 }
 
 }  // namespace slipfit::model

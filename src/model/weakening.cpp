@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <tuple>
 
 #include "model/linear_part.hpp"
 #include "model/root_between.hpp"
@@ -50,12 +51,20 @@ double WeakeningSlip::time_to_weaken() const {
   const double g = stiffening_.a;
   const double zeta = zeta_.a;
   const double longest = time_to_stop(g, zeta);
+  double low = 0.0;
   double high = std::min(longest, std::cbrt(6.0 * distance_.a));  // x = tau^3 / 6 to begin with
-  while (slide_at(g, zeta, high).x < distance_.a) {
+  double reached = slide_at(g, zeta, high).x;
+  while (reached < distance_.a) {
     if (high >= longest) return std::numeric_limits<double>::infinity();
+    low = high;
     high = std::min(longest, 2.0 * high);
+    reached = slide_at(g, zeta, high).x;
   }
-  return root_between([&](double tau) { return slide_at(g, zeta, tau).x - distance_.a; }, 0.0, high);
+  const auto remaining = [&](double tau) {
+    const Slide<double> slide = slide_at(g, zeta, tau);
+    return std::tuple(slide.x - distance_.a, slide.v, slide.a);
+  };
+  return root_near(remaining, std::max(low, high * std::cbrt(distance_.a / reached)), low, high);
 }
 
 WeakeningSlip::State WeakeningSlip::weakening_at(const Jet& tau) const {
@@ -85,12 +94,20 @@ void WeakeningSlip::end_when_weakened() {
   const double phase = std::atan2(begin.ddz, (-zeta * begin.ddz - begin.dz) / b);
   const double fastest = std::max(0.0, -phase / b);
   const double slowest = (std::numbers::pi - phase) / b;
-  const auto speed_below = [&](double since) {
+  const auto stick = [&](double since) {
     const double decay = std::exp(-zeta * since);
-    return decay * (begin.dz * std::cos(b * since) - (begin.z + zeta * begin.dz) / b * std::sin(b * since)) - 1.0;
+    const double c = decay * std::cos(b * since);
+    const double s = decay * std::sin(b * since) / b;
+    const double dz = begin.dz * c - (begin.z + zeta * begin.dz) * s;
+    const double ddz = begin.ddz * c - (begin.dz + zeta * begin.ddz) * s;
+    return std::tuple(dz - 1.0, ddz, -2.0 * zeta * ddz - dz);
   };
-  resticks_ = speed_below(slowest) >= 0.0;
-  const double since = resticks_ ? root_between(speed_below, fastest, slowest) : slowest;
+  resticks_ = std::get<0>(stick(slowest)) >= 0.0;
+  // Without damping z' is a sine from the end of weakening on.
+  const double swing = std::hypot(begin.dz, begin.z);
+  const double undamped =
+      2.0 * std::numbers::pi - std::acos(std::min(1.0, 1.0 / swing)) - std::atan2(begin.z, begin.dz);
+  const double since = resticks_ ? root_near(stick, std::clamp(undamped, fastest, slowest), fastest, slowest) : slowest;
   tau_end_ = weakened_.tau.a + since;
   end_ = weakened_at(Jet(tau_end_));
   if (resticks_) return;

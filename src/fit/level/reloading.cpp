@@ -11,11 +11,6 @@ RiseAroundSlip::LengthJet RiseAroundSlip::Stick::at(double time_s) const {
   return 1.0 - exp((begin_s - time_s) / scale_s) - risen;
 }
 
-RiseAroundSlip::LengthJet RiseAroundSlip::Stick::integral(double from_s, double to_s) const {
-  const LengthJet decayed = exp((begin_s - from_s) / scale_s) - exp((begin_s - to_s) / scale_s);
-  return (1.0 - risen) * (to_s - from_s) - scale_s * decayed;
-}
-
 RiseAroundSlip::RiseAroundSlip(const RiseAfterSlip& rise, std::size_t slip, double length_m, double average_s)
     : has_before_(slip > 0), average_s_(average_s), onset_s_(rise.slip_begin_s[slip]) {
   LengthJet scale_s(length_m / rise.speed_m_per_s, 0);
@@ -38,12 +33,17 @@ RiseAfterSlip::Share RiseAroundSlip::at(double time_s) const {
   const double from_s = time_s - 0.5 * average_s_;
   const double to_s = time_s + 0.5 * average_s_;
   LengthJet sum(0.0);
-  if (has_before_ && from_s < onset_s_) {
-    sum += before_.integral(std::max(from_s, before_.begin_s), std::min(to_s, onset_s_));
-  }
-  if (to_s > after_.begin_s) sum += after_.integral(std::max(from_s, after_.begin_s), to_s);
+  double of_ends = 0.0;  // the share is 0 from the onset to the end of the slip
+  const auto add = [&](const Stick& stick, double first_s, double last_s) {
+    const LengthJet first = stick.at(first_s);
+    const LengthJet last = stick.at(last_s);
+    // The integral of exp(-t / scale) is scale times what it falls by.
+    sum += (1.0 - stick.risen) * (last_s - first_s) - stick.scale_s * (last - first);
+    of_ends += first.a + last.a;
+  };
+  if (has_before_ && from_s < onset_s_) add(before_, std::max(from_s, before_.begin_s), std::min(to_s, onset_s_));
+  if (to_s > after_.begin_s) add(after_, std::max(from_s, after_.begin_s), to_s);
   const LengthJet mean = sum / average_s_;
-  const double of_ends = without_average(from_s).a + without_average(to_s).a;
   return {mean.a, mean.v[0], 0.5 * of_ends - mean.a};
 }
 

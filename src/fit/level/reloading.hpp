@@ -52,7 +52,6 @@ class RiseAroundSlip {
     LengthJet scale_s, risen;
 
     [[nodiscard]] LengthJet at(double time_s) const;
-    [[nodiscard]] LengthJet integral(double from_s, double to_s) const;
   };
   [[nodiscard]] LengthJet without_average(double time_s) const;
 

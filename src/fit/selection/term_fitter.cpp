@@ -82,27 +82,29 @@ bool solve_own(BlockFit& blocks) {
 }
 
 /// The solution from these parameters on. Empty where a slip has none.
-std::optional<BlockFit> solved_from(BlockFit blocks, const SolveOptions& options) {
-  const bool is_solved = std::isfinite(solve(blocks, options)) && has_slips(blocks);
-  return is_solved ? std::optional(std::move(blocks)) : std::nullopt;
+std::optional<Minimum> solved_from(BlockFit blocks, const SolveOptions& options) {
+  const double sum = solve(blocks, options);
+  const bool is_solved = std::isfinite(sum) && has_slips(blocks);
+  return is_solved ? std::optional(Minimum{std::move(blocks), sum}) : std::nullopt;
 }
 
 /// Solves to the accuracy that comparing terms needs. A rise after slips is moved to the slips of the solution. Empty
 /// where a slip has no solution.
-std::optional<BlockFit> roughly_settled(BlockFit start, const Held& held, double tolerance) {
+std::optional<Minimum> roughly_settled(BlockFit start, const Held& held, double tolerance) {
   const SolveOptions options{held, false, true, kCompareIterations, tolerance, true};
-  std::optional<BlockFit> blocks = solved_from(std::move(start), options);
-  for (int i = 0; i < kRiseSteps && blocks && blocks->level().reloading; ++i) {
-    blocks = solved_from(with_rise_after(*blocks), options);
+  std::optional<Minimum> minimum = solved_from(std::move(start), options);
+  for (int i = 0; i < kRiseSteps && minimum && minimum->blocks.level().reloading; ++i) {
+    minimum = solved_from(with_rise_after(minimum->blocks), options);
   }
-  return blocks;
+  return minimum;
 }
 
 /// The solution but for its rise, which settle_rise settles.
 std::optional<BlockFit> settled(BlockFit blocks, const Held& held) {
   const bool has_valley = blocks.scales().law == FrictionLaw::Weakening || blocks.solves_for(kSensorTime);
-  return solved_from(std::move(blocks),
-                     {held, false, true, kFullIterations, has_valley ? kValleyTolerance : kFinalTolerance});
+  std::optional<Minimum> minimum = solved_from(
+      std::move(blocks), {held, false, true, kFullIterations, has_valley ? kValleyTolerance : kFinalTolerance});
+  return minimum ? std::optional(std::move(minimum->blocks)) : std::nullopt;
 }
 
 /// The best zeta is clearly below 0, or below it where D_c leaves it open.
@@ -161,16 +163,12 @@ Minima TermFitter::minima(Terms terms, bool is_asked) const {
 
 Minimum TermFitter::plain() const {
   BlockFit some = carried_to(enough_, plain_.blocks);
-  solve(some, {plain_.held, false, true, kCompareIterations, kRoughTolerance});
-  const double sum = sum_of_squares(some);
+  const double sum = solve(some, {plain_.held, false, true, kCompareIterations, kRoughTolerance});
   return {std::move(some), sum};
 }
 
 std::optional<Minimum> TermFitter::near(const BlockFit& fit) const {
-  std::optional<BlockFit> some = solved(enough_, fit);
-  if (!some) return std::nullopt;
-  const double sum = sum_of_squares(*some);
-  return Minimum{*std::move(some), sum};
+  return solved(enough_, fit);
 }
 
 std::optional<Minimum> TermFitter::behind_filter(const BlockFit& from, std::span<const FilterStart> starts) const {
@@ -182,10 +180,8 @@ std::optional<Minimum> TermFitter::behind_filter(const BlockFit& from, std::span
     scales.sensor_lag_s = start.lag_s;
     BlockFit blocks = started(BlockFit(few_, scales), from.parameters.values);
     if (!solve_own(blocks)) continue;
-    std::optional<BlockFit> settled = roughly_settled(std::move(blocks), held_, kDescentTolerance);
-    if (!settled) continue;
-    const double sum = sum_of_squares(*settled);
-    if (!best || sum < best->sum_of_squares) best = Minimum{*std::move(settled), sum};
+    std::optional<Minimum> settled = roughly_settled(std::move(blocks), held_, kDescentTolerance);
+    if (settled && (!best || explains_more(*settled, *best))) best = std::move(settled);
   }
   return best ? near(best->blocks) : std::nullopt;
 }
@@ -212,10 +208,11 @@ DampedFit TermFitter::rival_of(const Minimum& minimum) const {
 }
 
 std::optional<DampedFit> TermFitter::draft(const BlockFit& near) const {
-  std::optional<BlockFit> rough = solved(cycles_, near);
+  std::optional<Minimum> rough = solved(cycles_, near);
   if (!rough) return std::nullopt;
-  if (rough->level().per_cycle) rough = with_poorest_level(*std::move(rough));
-  std::optional<DampedFit> fit = without_outliers(*rough);
+  const bool wanders = rough->blocks.level().per_cycle;
+  std::optional<DampedFit> fit =
+      without_outliers(wanders ? with_poorest_level(std::move(rough->blocks)) : std::move(rough->blocks));
   return fit ? settle_rise(input_, with_uncertainty(*std::move(fit), input_.quality)) : std::nullopt;
 }
 
@@ -346,12 +343,11 @@ std::vector<Minimum> TermFitter::drafts_of(Terms terms) const {
 }
 
 Minimum TermFitter::descended(Minimum draft) const {
-  std::optional<BlockFit> blocks = roughly_settled(draft.blocks, held_, kDescentTolerance);
-  const double sum = blocks ? sum_of_squares(*blocks) : std::numeric_limits<double>::infinity();
-  return sum < draft.sum_of_squares ? Minimum{*std::move(blocks), sum} : std::move(draft);
+  std::optional<Minimum> lower = roughly_settled(draft.blocks, held_, kDescentTolerance);
+  return lower && explains_more(*lower, draft) ? *std::move(lower) : std::move(draft);
 }
 
-std::optional<BlockFit> TermFitter::solved(const Cycles& cycles, const BlockFit& near) const {
+std::optional<Minimum> TermFitter::solved(const Cycles& cycles, const BlockFit& near) const {
   if (cycles->cycles().size() == near.size()) {
     return roughly_settled(carried_to(cycles, near), held_, kRoughTolerance);
   }
@@ -390,8 +386,9 @@ BlockFit TermFitter::with_poorest_level(BlockFit wandering) const {
   level.reloading = wandering.level().reloading;
   BlockFit polynomial = started(wandering.with_level(std::move(level), scales), wandering.parameters.values);
   polynomial.parameters.values = wandering.parameters.values;
-  std::optional<BlockFit> settled = roughly_settled(std::move(polynomial), held_, kRoughTolerance);
-  return settled && !level_wanders(wandering, *settled, held_) ? *std::move(settled) : std::move(wandering);
+  std::optional<Minimum> settled = roughly_settled(std::move(polynomial), held_, kRoughTolerance);
+  const bool is_enough = settled && !level_wanders(wandering, settled->blocks, held_);
+  return is_enough ? std::move(settled->blocks) : std::move(wandering);
 }
 
 /// The outliers are those of the model of `rough`: those of the plain fit may be what its model misses. Empty where

@@ -28,7 +28,8 @@ struct FilterStart {
   double lag_s = 0.0;  ///< its delay (docs/model.md section 7)
 };
 
-/// A minimum of the sum of squares of some of the cycles.
+/// A minimum of the sum of squares of some of the cycles. Cycles far worse than the others count linearly, as in the
+/// solver (SolveOptions::robust).
 struct Minimum {
   BlockFit blocks;
   double sum_of_squares = 0.0;
@@ -104,7 +105,7 @@ class TermFitter {
   [[nodiscard]] std::vector<Minimum> drafts_of(Terms terms) const;
   [[nodiscard]] Minimum descended(Minimum draft) const;
   /// Solves near another fit, to the accuracy that comparing terms needs. Empty where a slip has no solution.
-  [[nodiscard]] std::optional<BlockFit> solved(const Cycles& cycles, const BlockFit& near) const;
+  [[nodiscard]] std::optional<Minimum> solved(const Cycles& cycles, const BlockFit& near) const;
   /// Returns whether the slips come to rest, and the average is shorter than a stick.
   [[nodiscard]] bool has_slips_of_its_own(const BlockFit& fit) const;
   [[nodiscard]] bool has_term(const BlockFit& fit) const;
