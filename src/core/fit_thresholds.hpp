@@ -62,9 +62,6 @@ inline constexpr double kBlurringHum = 0.5;
 /// samples]
 inline constexpr double kResolvedSamples = 1.5;
 
-/// Standard error of zeta, below which scattering cycles determine it even then. [1; calibrated: as kResolvedSamples]
-inline constexpr double kPinningDamping = 0.01;
-
 /// Standard error of zeta, from which on it is not reported. [1; convention: zeta of a slip that shows itself is below
 /// 0.5]
 inline constexpr double kInformativeDamping = 0.1;
@@ -81,10 +78,6 @@ inline constexpr double kMisfitChance = 5e-5;
 /// Stacked residual of the slips under friction that weakens over a slip distance over that under Coulomb friction, at
 /// most. [1; convention: what is left is smaller than what is explained]
 inline constexpr double kHalvedStack = 0.5;
-
-/// Stacked residual over its standard errors, up to which it is chance. [1; derived: 1.6 for 1 % of slips that are the
-/// model's, in eight stretches]
-inline constexpr double kChanceStack = 1.5;
 
 /// Share of a trend that a measured load leaves unexplained, below which the trend is friction. [1; convention: a
 /// sensor zero of a tenth of the force does as much]

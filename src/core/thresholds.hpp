@@ -24,10 +24,6 @@ inline constexpr double kWideSpread = 0.7;
 /// Smallest share of slips that come to rest in stick-slip. [1; convention]
 inline constexpr double kRestickShare = 0.8;
 
-/// Smallest share of slips that come to rest in a fit of some cycles, for all of them to be fitted. [1; derived: of 64
-/// slips a standard error below kRestickShare]
-inline constexpr double kFewRest = 0.95 * kRestickShare;
-
 /// Time of a fall from 80 % to 20 % over the period, above which a trace is as round as a sine. [1; derived: 0.205 for
 /// a sine, 0.3 for an even triangle, less for slips]
 inline constexpr double kSineFall = 0.17;
@@ -137,9 +133,6 @@ inline constexpr double kRegularRest = 0.03;
 
 /// Distance from the median of a broken interval among regular ones, over the median. [1; convention]
 inline constexpr double kFarInterval = 0.12;
-
-/// The same of a broken interval between two usual ones. [1; convention]
-inline constexpr double kOddInterval = 0.04;
 
 /// Distance of either over the typical distance of the intervals, at least. [1; convention]
 inline constexpr double kFarOverTypical = 8.0;

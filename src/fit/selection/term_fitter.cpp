@@ -361,7 +361,7 @@ std::optional<Minimum> TermFitter::solved(const Cycles& cycles, const BlockFit& 
 }
 
 bool TermFitter::has_slips_of_its_own(const BlockFit& fit) const {
-  return resting_share(fit) >= thresholds::kFewRest &&
+  return resting_share(fit) >= thresholds::kRestickShare &&
          fit.sensor().average_s + median_slip_s(fit) < median_period_s(plain_.blocks);
 }
 

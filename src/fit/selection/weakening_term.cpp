@@ -41,8 +41,7 @@ std::string hindrance(const FitInput& input, const DampedFit& coulomb) {
 /// Sets what the fit says for and against it. `before`: stacked residual of the Coulomb fit.
 Candidate judged(Candidate candidate, const DampedFit& fit, const DampedFit& coulomb, double gain, double before) {
   const double sigmas = sigmas_of_distance(fit);
-  const StackedResidual left = stacked_residual(fit.blocks, coulomb.blocks);
-  const double after = left.size;
+  const double after = stacked_residual(fit.blocks, coulomb.blocks).size;
   candidate.reason = fmt::format(
       "AICc {:.1f} {} than under Coulomb friction, D_c {:.1f} of its standard errors, mean residual over the phase of "
       "the slip {:.2g} % of the onset force in place of {:.2g} %",
@@ -51,11 +50,9 @@ Candidate judged(Candidate candidate, const DampedFit& fit, const DampedFit& cou
     candidate.reason += fmt::format("; the standard error of the damping ratio is {:.2g}", damping_error(fit));
     return candidate;
   }
-  // An average of the sensor takes as many parameters and explains the roundness, not the asymmetry of the slip. What
-  // either leaves may be chance.
+  // An average of the sensor takes as many parameters and explains the roundness, not the asymmetry of the slip.
   const bool is_rounded = coulomb.average || coulomb.blocks.scales().law == FrictionLaw::Weakening;
-  const double most =
-      is_rounded ? std::max(before, thresholds::kChanceStack * left.by_chance) : thresholds::kHalvedStack * before;
+  const double most = is_rounded ? before : thresholds::kHalvedStack * before;
   candidate.chosen = gain > thresholds::kTierPrice && sigmas > thresholds::kClearSigmas && after <= most;
   candidate.reason += candidate.chosen
                           ? ": the slip distance is justified"
