@@ -1,4 +1,4 @@
-# Man pages and bash completion by --help, where there is a Python to make them.
+# Man pages and completion by --help, where there is a Python to make them.
 find_package(Python3 COMPONENTS Interpreter)
 if(Python3_Interpreter_FOUND)
   set(manual "${PROJECT_BINARY_DIR}/manual")
@@ -10,13 +10,15 @@ if(Python3_Interpreter_FOUND)
   install(DIRECTORY "${manual}/man/" DESTINATION "${CMAKE_INSTALL_MANDIR}/man1" OPTIONAL)
   install(FILES "${manual}/slipfit.bash" DESTINATION "${CMAKE_INSTALL_DATADIR}/bash-completion/completions" RENAME slipfit
     OPTIONAL)
+  install(FILES "${manual}/_slipfit" DESTINATION "${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions" OPTIONAL)
+  install(FILES "${manual}/slipfit.fish" DESTINATION "${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d" OPTIONAL)
   install(FILES "${manual}/changelog.gz" DESTINATION "${CMAKE_INSTALL_DOCDIR}" OPTIONAL)
   install(CODE "if(NOT EXISTS \"${manual}/slipfit.bash\")
-    message(STATUS \"Left out: man pages and bash completion, which the target slipfit_manual makes\")
+    message(STATUS \"Left out: man pages and completion, which the target slipfit_manual makes\")
   endif()")
 else()
   add_custom_target(slipfit_manual
-    COMMAND "${CMAKE_COMMAND}" -E echo "No man pages and no bash completion: they need Python 3, which CMake did not find")
-  install(CODE "message(STATUS \"Left out: man pages and bash completion, which need Python 3 when slipfit is built\")")
+    COMMAND "${CMAKE_COMMAND}" -E echo "No man pages and no completion: they need Python 3, which CMake did not find")
+  install(CODE "message(STATUS \"Left out: man pages and completion, which need Python 3 when slipfit is built\")")
 endif()
 install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${CMAKE_INSTALL_DOCDIR}" RENAME copyright)

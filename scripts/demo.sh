@@ -18,7 +18,7 @@ build/tool/apps/slipfit fit testdata/demo.csv --speed 10mm/s
 
 cat >&2 <<'END'
 
-To call slipfit from anywhere, with its man pages and bash completion:
+To call slipfit from anywhere, with its man pages and completion:
 cmake --install build/tool (as root into /usr/local), or
 cmake --install build/tool --prefix ~/.local (then ~/.local/bin has to be on the PATH).
 END

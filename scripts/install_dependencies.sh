@@ -21,7 +21,7 @@ for group in "${@:-test}"; do
   case "$group" in
     python) packages+=("${python[@]}") ;;
     test) packages+=(catch2 libfast-float-dev python3 python3-jsonschema python3-openpyxl python3-scipy python3-h5py
-      slurm-wlm munge locales dpkg-dev file "${python[@]}" "${notebooks[@]}" python3-pytest mypy python3-dask python3-distributed python3-xarray) ;;
+      slurm-wlm munge locales zsh fish dpkg-dev file "${python[@]}" "${notebooks[@]}" python3-pytest mypy python3-dask python3-distributed python3-xarray) ;;
     docs) packages+=("${python[@]}" "${notebooks[@]}" mkdocs mkdocs-material doxygen) ;;
     web)
       packages+=(emscripten libfast-float-dev curl ca-certificates xz-utils bzip2 make)

@@ -54,8 +54,7 @@ void add_options(CLI::App& command, BatchArguments& arguments) {
   command.add_flag("--resume", arguments.resume, "Continue the batch in this folder");
   command.add_option("--shard", arguments.shard, "I/N: fit the I-th of N parts of the manifest, I from 1");
   command.add_flag("--joint-groups", arguments.joint_groups, "Also fit the recordings of each group together");
-  command.add_option("--tier", arguments.tier, "Model: auto, sawtooth, undamped, damped, weakening")
-      ->capture_default_str();
+  command.add_option("--tier", arguments.tier, "auto|sawtooth|undamped|damped|weakening: model")->capture_default_str();
   command.add_option("--fix", arguments.fixed, "NAME=VALUE: fix a parameter at a value (SI); may be repeated")
       ->allow_extra_args(false);
   command.add_option(

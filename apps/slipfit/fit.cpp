@@ -134,7 +134,9 @@ void add_fit_command(CLI::App& program, const std::string& command_line) {
   add_analysis_options(*command, arguments->analysis);
   command->get_option("REC")->required(false)->description(
       "Recordings; several are fitted separately (--joint: together)");
-  command->add_option("--tier", arguments->tier, "Model: auto, sawtooth, undamped, damped, weakening, velocity (joint)")
+  command
+      ->add_option("--tier", arguments->tier,
+                   "auto|sawtooth|undamped|damped|weakening|velocity: model (velocity: with --joint)")
       ->capture_default_str();
   command->add_option("--fix", arguments->fixed, "NAME=VALUE: fix k, w_n or zeta at a value (SI); may be repeated")
       ->allow_extra_args(false);

@@ -60,7 +60,7 @@ void add_profile_options(CLI::App& command, SurfaceArguments& arguments) {
                "Size of a pixel of the image on the surface: 2.1um");
   command.add_option_function<std::string>(
       "--along", [&options](const std::string& text) { options.along_rad = direction(text); },
-      "Sliding direction on an area: x, y, or degrees from x");
+      "x|y|DEGREES: sliding direction on an area, degrees from x");
   command.add_option("--x-column", options.x_column, "Column of positions along the track: name or 1-based number");
   command.add_option("--z-column", options.z_column, "Column of heights: name or 1-based number");
 }

@@ -194,12 +194,14 @@ constexpr std::array kFields = std::to_array<ManifestField>({
     number_field({"drive_path", "--drive-path",
                   "Displacement after which the force of the drive repeats, such as a tooth or a turn: 2mm"},
                  "_m", Dimension::Length, Bound::AboveZero, set_number_of<&Conditions::drive_path_m>),
-    text_field({"force_view", "--force-view", "Force that the sensor measures: spring (default), transmitted, contact"},
-               set_force_view),
-    text_field({"drift", "--drift",
-                "Cause of a trend of the force level: sensor (drift), friction (change), or none (no trend); default: "
-                "intervals include sensor and friction unless the data decide"},
-               set_drift),
+    text_field(
+        {"force_view", "--force-view", "spring|transmitted|contact: force that the sensor measures (default: spring)"},
+        set_force_view),
+    text_field(
+        {"drift", "--drift",
+         "sensor|friction|none: cause of a trend of the force level (drift, change, no trend); default: intervals "
+         "include sensor and friction unless the data decide"},
+        set_drift),
     text_field({"group"}, set_label<&Labels::group>),
     text_field({"sample"}, set_label<&Labels::sample>),
     text_field({"material"}, set_label<&Labels::material>),

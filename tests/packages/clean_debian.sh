@@ -68,7 +68,9 @@ inside "$root" apt-get update -qq
 inside "$root" sh -c 'apt-get install -y -qq --no-install-recommends /tmp/*.deb >/tmp/install.log 2>&1 || { cat /tmp/install.log; exit 1; }'
 inside "$root" sh -c 'slipfit fit /tmp/demo.csv --speed 10mm/s >/tmp/fit.txt && head -3 /tmp/fit.txt'  # a pipe to head would end it early
 inside "$root" test -f /usr/share/man/man1/slipfit-fit.1.gz
-inside "$root" test -f /usr/share/bash-completion/completions/slipfit
+for file in bash-completion/completions/slipfit zsh/vendor-completions/_slipfit fish/vendor_completions.d/slipfit.fish; do
+  inside "$root" test -f "/usr/share/$file"
+done
 inside "$root" python3 -c "
 import slipfit as sf
 fit = sf.fit(sf.read_recording('/tmp/demo.csv', speed='10 mm/s'))
