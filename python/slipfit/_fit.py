@@ -275,9 +275,6 @@ class Fit:
         """What tables and texts show, in their order."""
         return [*self.parameters.values(), self.frequency, self.pattern_spacing, self.periodic_displacement, self.critical_speed]
 
-    def _known(self) -> List[Estimate]:
-        return [one for one in self._quantities() if one.value is not None or one.ci95 is not None]
-
     # Tables and arrays
 
     def to_frame(self) -> "pd.DataFrame":
@@ -387,8 +384,8 @@ class Fit:
     # Python
 
     def __str__(self) -> str:
-        """The summary that ``slipfit fit`` prints, in words of Python; of a saved result without a recording its numbers."""
-        return _numbers_as_text(self) if self._recording is None else in_words_of_python(self._result().summary())
+        """The summary that ``slipfit fit`` prints, in words of Python."""
+        return in_words_of_python(_slipfit.summary(self.to_json(), self.id))
 
     def __repr__(self) -> str:
         known = f", stiffness {self.stiffness}" if self.parameters else ""
@@ -428,12 +425,6 @@ def _check_recording(name: str, stated: Mapping[str, Any], recording: Recording)
     ):
         if expected is not None and abs(found - expected) > 1e-9 * abs(expected):
             raise Error("another_recording", f"{name}: the document is of {expected:.9g} {word}, this recording has {found:.9g}")
-
-
-def _numbers_as_text(fit: Fit) -> str:
-    lines = [f"{fit.id}: {fit.status.replace('_', ' ')}" + (f" ({fit.reason})" if fit.reason else "")]
-    lines += [f"  {one.name}: {one}" for one in fit._known()]
-    return "\n".join(lines + [f"  warning: {notice}" for notice in fit.warnings])
 
 
 def _remade(kind: Any, state: Tuple[Any, ...]) -> Any:

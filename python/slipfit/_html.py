@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from html import escape
-from typing import TYPE_CHECKING, Any, Iterable, List, Sequence, Tuple
+from typing import TYPE_CHECKING, Any, Iterable, List, Sequence, Tuple, Union
 
 import numpy as np
 
@@ -100,7 +100,7 @@ def of_parameters(estimates: Iterable["Estimate"]) -> str:
     return f'<table style="{_STYLE}">{_HEAD}{"".join(_row(one) for one in estimates)}</table>'
 
 
-def of_document(document: "Document") -> str:
+def of_document(document: "Union[Document, Fit]") -> str:
     """The text as it is printed."""
     return f'<pre style="{_STYLE}">{escape(str(document))}</pre>'
 
@@ -126,15 +126,5 @@ def of_batch(result: "BatchResult") -> str:
 
 
 def of_fit(fit: "Fit") -> str:
-    """Kind of motion, table with intervals and statuses, warnings, chart."""
-    rows = [_row(one) for one in fit._known()]
-    notes = "".join(f"<li>{escape(one.message)} <code>{escape(one.code)}</code></li>" for one in fit.warnings)
-    picture = "" if fit._recording is None else chart(fit.recording, fit)
-    return (
-        f'<div style="{_STYLE}"><b>{escape(fit.id)}: {escape(fit.status.replace("_", " "))}</b>'
-        + (f"<div>{escape(fit.reason)}</div>" if fit.reason else "")
-        + (f"<table>{_HEAD}{''.join(rows)}</table>" if rows else "")
-        + picture
-        + (f"<div>Warnings<ul>{notes}</ul></div>" if notes else "")
-        + "</div>"
-    )
+    """The summary as it is printed, and the trace."""
+    return of_document(fit) + ("" if fit._recording is None else chart(fit.recording, fit))

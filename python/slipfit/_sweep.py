@@ -11,7 +11,7 @@ from . import _slipfit
 from ._cells import Quantity, fixed_of
 from ._documents import Path, write_page
 from ._errors import Error, in_words_of_python
-from ._fit import Curve, Fit, Options, _check_recording, _numbers_as_text
+from ._fit import Curve, Fit, Options, _check_recording
 from ._recording import Recording
 from ._values import Estimate
 
@@ -147,9 +147,6 @@ class Sweep(Fit):
         from . import _plot
 
         return _plot.sweep(self, kind, ax)
-
-    def __str__(self) -> str:
-        return in_words_of_python(self._swept().summary(self._id)) if self._all else _numbers_as_text(self)
 
     def details(self) -> str:
         """All results as text, as ``slipfit fit --joint --details`` prints them."""

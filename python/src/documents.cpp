@@ -16,6 +16,7 @@
 #include "slipfit/report/plan.hpp"
 #include "slipfit/report/prediction.hpp"
 #include "slipfit/report/surface.hpp"
+#include "slipfit/report/text.hpp"
 
 namespace slipfit::python {
 namespace {
@@ -194,6 +195,13 @@ std::vector<std::pair<std::string, std::string>> figures() {
   return files;
 }
 
+/// The summary, which points to the rest of the results in words of Python.
+std::string summary(const std::string& content, const std::string& name) {
+  return value_or_raise(summary_of_document(
+      content, name,
+      {".details()", "all results: .details() or .to_dict()      page with charts: .report(\"FILE.html\")"}));
+}
+
 ForceView view_called(const std::string& name) {
   if (name == "spring") return ForceView::Spring;
   if (name == "transmitted") return ForceView::Transmitted;
@@ -224,6 +232,7 @@ void add_documents(py::module_& module) {
   module.def("predict", predict, py::arg("document"), py::arg("name"), py::arg("speeds"), py::arg("normal_force_N"));
   module.def("predict_stated", predict_stated, py::arg("slider"), py::arg("friction"), py::arg("speeds"));
   module.def("check_document", check_document, py::arg("document"), py::arg("name"));
+  module.def("summary", summary, py::arg("document"), py::arg("name"));
   module.def("figures", figures);
   module.def("info", info, py::arg("file"), py::arg("cells"));
   module.def("manifest", manifest, py::arg("paths"), py::arg("folder"));

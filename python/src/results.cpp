@@ -135,11 +135,6 @@ std::optional<std::string> swept_prediction_of(const AnalysedSweep& result) {
   return prediction ? std::optional(to_json(*prediction, {})) : std::nullopt;
 }
 
-/// Returns the words by which a summary points to the rest of the results in Python.
-SummaryHints hints() {
-  return {".details()", "all results: .details() or .to_dict()      page with charts: .report(\"FILE.html\")"};
-}
-
 }  // namespace
 
 void add_results(py::module_& module) {
@@ -152,7 +147,6 @@ void add_results(py::module_& module) {
           },
           py::arg("id") = "")
       .def("text", [](const AnalysedRecording& r) { return to_text(*r.recording, *r.analysis); })
-      .def("summary", [](const AnalysedRecording& r) { return to_summary(*r.recording, *r.analysis, hints()); })
       .def("cycles_csv", [](const AnalysedRecording& r) { return cycles_to_csv(*r.recording, *r.analysis); })
       .def("fitted", fitted_of)
       .def("background", background_of)
@@ -167,12 +161,6 @@ void add_results(py::module_& module) {
       .def(
           "text",
           [](const AnalysedSweep& r, const std::string& id) { return to_text(r.parts->entries, r.parts->sweep, id); },
-          py::arg("id"))
-      .def(
-          "summary",
-          [](const AnalysedSweep& r, const std::string& id) {
-            return to_summary(r.parts->entries, r.parts->sweep, id, hints());
-          },
           py::arg("id"))
       .def_property_readonly("members", members_of)
       .def("prediction", swept_prediction_of)

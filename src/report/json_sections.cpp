@@ -68,6 +68,7 @@ Json recording_json(const Recording& recording, const Analysis& analysis) {
             {"sample_rate_Hz", 1.0 / recording.sample_interval_s()},
             {"duration_s", recording.duration_s()},
             {"speed_m_per_s", conditions.speed_is_known ? Json(conditions.speed_m_per_s) : Json()},
+            {"speed_unit", conditions.speed_unit.empty() ? Json() : Json(conditions.speed_unit)},
             {"speed_se_m_per_s", conditions.speed_standard_error_m_per_s},
             {"normal_force_N", conditions.normal_force_N},
             {"force_view", name_of(conditions.force_view)},

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <optional>
 #include <string_view>
 
 #include "slipfit/pipeline.hpp"
@@ -19,6 +22,19 @@ std::string_view name_of(Regularity regularity);
 std::string_view name_of(Regime regime);
 std::string_view name_of(FrequencyMethod method);
 std::string_view name_of(TestKind kind);
+
+inline constexpr std::array kMotions{MotionClass::StickSlip, MotionClass::SteadySliding, MotionClass::OscillatorySlip,
+                                     MotionClass::Undetermined};
+inline constexpr std::array kParameterStatuses{ParameterStatus::Identified, ParameterStatus::Weak,
+                                               ParameterStatus::Bounded,    ParameterStatus::Unidentified,
+                                               ParameterStatus::Fixed,      ParameterStatus::Conditional};
+
+/// Returns the choice whose name in the document this is.
+template <class Choice, std::size_t Count>
+std::optional<Choice> with_name(const std::array<Choice, Count>& choices, std::string_view name) {
+  const auto found = std::ranges::find(choices, name, [](Choice choice) { return name_of(choice); });
+  return found == choices.end() ? std::nullopt : std::optional(*found);
+}
 
 /// Returns the kind of motion in words.
 std::string_view words_for_motion(MotionClass motion);

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "analysis/rules.hpp"
-#include "report/model_terms.hpp"
+#include "report/document/check_document.hpp"
 #include "report/names.hpp"
 #include "report/quantities.hpp"
 #include "report/text_sections.hpp"
@@ -20,6 +20,8 @@
 
 namespace slipfit {
 namespace {
+
+using documents::JsonNode;
 
 constexpr std::size_t kMostLines = 25;    // of a summary: one screen
 constexpr std::size_t kMostWarnings = 5;  // those with the largest effect
@@ -191,11 +193,61 @@ bool is_headline(ParameterId id) {
   return std::ranges::find(kHeadlineParameters, id) != kHeadlineParameters.end();
 }
 
+/// A document of one recording or a sweep, with the parts that the summary uses.
+struct SummaryInput {
+  const JsonNode& document;
+  Conditions conditions;  ///< that decide about units; of a sweep: of its first recording
+  std::vector<Parameter> parameters;
+  Warnings warnings;
+  bool zero_is_known = false;
+};
+
+Conditions conditions_of(const JsonNode& recording) {
+  Conditions conditions;
+  const std::optional<double> speed_m_per_s = recording.number_at("speed_m_per_s");
+  conditions.speed_m_per_s = speed_m_per_s.value_or(conditions.speed_m_per_s);
+  conditions.speed_is_known = speed_m_per_s.has_value();
+  conditions.speed_unit = recording.text_at("speed_unit");
+  conditions.zero_force_N = recording.number_at("zero_force_N");
+  if (recording.text_at("force_quantity") == name_of(ForceQuantity::FrictionCoefficient))
+    conditions.quantity = ForceQuantity::FrictionCoefficient;
+  return conditions;
+}
+
+std::vector<Parameter> parameters_of(const JsonNode& document) {
+  std::vector<Parameter> parameters;
+  for (const ParameterInfo& known : parameter_table()) {
+    const std::optional<JsonNode> found = document.known("parameters", std::string(known.key));
+    const auto status = found ? with_name(kParameterStatuses, found->text_at("status")) : std::nullopt;
+    if (status) parameters.push_back({known.id, found->estimate(), *status});
+  }
+  return parameters;
+}
+
+Warnings warnings_of(const JsonNode& document) {
+  Warnings warnings;
+  for (const JsonNode& warning : document.elements("warnings"))
+    warnings.push_back({warning.text_at("code"), warning.text_at("message")});
+  return warnings;
+}
+
+/// A quantity in its section; of a friction coefficient, forces are in the object "coefficient".
+Estimate estimate_of(const JsonNode& document, const Quantity& quantity) {
+  const std::optional<JsonNode> section = document.known(std::string(quantity.section));
+  if (!section) return {};
+  const std::string key(quantity.key);
+  const std::optional<JsonNode> found = section->known(key);
+  if (found) return found->is_number() ? Estimate{found->number(), {}, {}, {}} : found->estimate();
+  const auto of_coefficient = section->known("coefficient");
+  if (!of_coefficient || !key.ends_with("_N")) return {};
+  return {of_coefficient->number_at(key.substr(0, key.size() - 2)), {}, {}, {}};
+}
+
 /// "Not determined: natural frequency w_n, damping ratio zeta: the slip has 4.1 samples."
-std::string not_determined(const FitResult& fit, const Screen& screen) {
+std::string not_determined(const std::vector<Parameter>& parameters, const Screen& screen) {
   std::string names;
   std::string reason;
-  for (const Parameter& parameter : fit.parameters) {
+  for (const Parameter& parameter : parameters) {
     if (parameter.status != ParameterStatus::Unidentified || !is_headline(parameter.id)) continue;
     names += (names.empty() ? "" : ", ") + std::string(info(parameter.id).words);
     if (reason.empty()) reason = parameter.estimate.note;
@@ -207,21 +259,24 @@ std::string not_determined(const FitResult& fit, const Screen& screen) {
                          : sentence("Not determined: " + names + " " + shown);
 }
 
-std::string terms_text(const FitResult& fit) {
+std::string terms_text(const JsonNode& document) {
   std::string terms;
-  for (const ModelTerm& term : model_terms(fit)) {
-    const bool is_shown =
-        term.parameters.empty() || is_headline(term.parameters.front());  // as a fact, or in the table
-    if (!is_shown) terms += (terms.empty() ? "" : "; ") + term.text;
+  for (const JsonNode& term : document.elements("model", "terms")) {
+    const std::vector<JsonNode> keys = term.elements("parameters");  // none: a fact
+    const std::optional<ParameterId> first = keys.empty() ? std::nullopt : parameter_with_key(keys.front().text());
+    if (first && !is_headline(*first)) terms += (terms.empty() ? "" : "; ") + term.text_at("text");
   }
   return terms.empty() ? terms : sentence("The model includes " + terms);
 }
 
-std::string residual_sentence(const FitResult& fit, ForceQuantity quantity) {
+std::string residual_sentence(const JsonNode& document, ForceQuantity quantity) {
   constexpr double kLevel = 1e-3;
-  std::string text = fmt::format("Residual {} rms", quantity_text(fit.residual.rms, force_unit(quantity)));
-  const auto& chi2 = fit.residual.reduced_chi2;
-  const auto& p = fit.residual.whiteness_p;
+  const std::optional<JsonNode> residual = document.known("model", "residual");
+  if (!residual) return {};
+  const Estimate rms = estimate_of(document.member("model"), {"residual", "rms_N", "", "N"});
+  std::string text = fmt::format("Residual {} rms", quantity_text(rms.value, force_unit(quantity)));
+  const std::optional<double> chi2 = residual->number_at("reduced_chi2");
+  const std::optional<double> p = residual->number_at("whiteness_p");
   if (p && *p >= kLevel) return text + ", consistent with white noise.";
   constexpr double kAlike = 1.05;  // residual over noise that is not worth mentioning
   if (chi2 && std::sqrt(*chi2) < kAlike && !p) return text + ", as large as the noise.";
@@ -242,102 +297,159 @@ std::string facts_text(const Warnings& warnings) {
   return sentence(facts);
 }
 
-void add_parameters(Screen& screen, const FitResult& fit, bool zero_is_known) {
-  for (const Parameter& parameter : fit.parameters) {
+void add_parameters(Screen& screen, const SummaryInput& input) {
+  for (const Parameter& parameter : input.parameters) {
     const bool is_known = parameter.status != ParameterStatus::Unidentified;
-    const bool has_zero = zero_is_known || !info(parameter.id).depends_on_sensor_zero;
+    const bool has_zero = input.zero_is_known || !info(parameter.id).depends_on_sensor_zero;
     if (is_known && has_zero && is_headline(parameter.id)) screen.add_parameter(parameter);
   }
 }
 
+/// Adds the critical speed with the status of the damping ratio, on which it depends.
+void add_critical_speed(Screen& screen, const SummaryInput& input) {
+  const Quantity& quantity = quantity_with_key("critical_speed_m_per_s");
+  const Estimate critical = estimate_of(input.document, quantity);
+  if (!critical.value) return;
+  const auto zeta = std::ranges::find(input.parameters, ParameterId::DampingRatio, &Parameter::id);
+  const bool is_fitted = zeta != input.parameters.end();
+  screen.add_row(quantity.words, estimate_row(quantity, critical, input.conditions),
+                 is_fitted ? std::string(name_of(zeta->status)) : "derived",
+                 is_fitted ? zeta->estimate.note : critical.note);
+}
+
 /// Adds the properties of the cycles that need no fit.
-void add_cycles(Screen& screen, const CycleStatistics& cycles, const Conditions& conditions) {
+void add_cycles(Screen& screen, const SummaryInput& input) {
   constexpr auto kShown = std::to_array<std::string_view>({"period_s", "peak_force_N", "force_drop_N"});
-  for (const auto& quantity : kCycleQuantities) {
-    const bool is_stiffness = quantity.unit == "N/m" && conditions.quantity == ForceQuantity::Force_N;
-    if (is_stiffness || std::ranges::find(kShown, quantity.key) != kShown.end())
-      screen.add_measured(quantity, quantity.of(cycles), conditions);
+  for (const Quantity& quantity : kCycleQuantities) {
+    if (quantity.unit == "N/m" || std::ranges::find(kShown, quantity.key) != kShown.end())
+      screen.add_measured(quantity, estimate_of(input.document, quantity), input.conditions);
   }
 }
 
-void add_below_table(Screen& screen, const FitResult& fit, ForceQuantity quantity) {
-  for (const std::string& text : {not_determined(fit, screen), residual_sentence(fit, quantity), terms_text(fit)}) {
+void add_below_table(Screen& screen, const SummaryInput& input) {
+  for (const std::string& text :
+       {not_determined(input.parameters, screen), residual_sentence(input.document, input.conditions.quantity),
+        terms_text(input.document)}) {
     if (!text.empty()) screen.add_text(text);
   }
+}
+
+MotionClass motion_of(const JsonNode& document) {
+  return with_name(kMotions, document.text_at("status")).value_or(MotionClass::Undetermined);
+}
+
+std::string headline_of(const JsonNode& document, const Conditions& conditions) {
+  std::string file = document.member("recording").text_at("file");
+  if (file.size() > kLongestName) file = std::filesystem::path(file).filename().string();
+  std::string text =
+      fmt::format("{}: {}", file.empty() ? "recording" : printable(file), words_for_motion(motion_of(document)));
+  const std::optional<JsonNode> quoted = document.known("frequency");
+  const Estimate frequency = quoted ? quoted->estimate("_Hz") : Estimate{};
+  if (frequency.value) {
+    const EstimateRow row = estimate_row(frequency, std::string("Hz"));
+    text += fmt::format(" at {} Hz{}", row.value, row.interval.empty() ? "" : " " + row.interval);
+    const std::optional<JsonNode> count = document.known("cycles", "count");
+    if (count && *count->number() > 0.0) text += fmt::format(", {:.0f} slips", *count->number());
+  }
+  return text + ", driven at " + speed_text(conditions);
+}
+
+std::string summary_of_recording(const SummaryInput& input, const SummaryHints& hints) {
+  const JsonNode& document = input.document;
+  const MotionClass motion = motion_of(document);
+  Screen screen(headline_of(document, input.conditions));
+  const bool has_slips = motion != MotionClass::SteadySliding;
+  const bool is_fitted = document.has("model");
+  if (is_fitted && has_slips) add_parameters(screen, input);
+  screen.add_measured(kMeasured.front(), estimate_of(document, kMeasured.front()), input.conditions);
+  add_critical_speed(screen, input);
+  for (const Quantity& row : kCoefficients) screen.add_measured(row, estimate_of(document, row), input.conditions);
+  const std::string reason = document.text_at("status_reason");
+  if (motion != MotionClass::StickSlip && !reason.empty()) screen.add_text(sentence("Reason: " + printable(reason)));
+  if (!is_fitted && has_slips) add_cycles(screen, input);
+  screen.number_notes();
+  if (is_fitted && has_slips) add_below_table(screen, input);
+  if (const std::string facts = facts_text(input.warnings); !facts.empty()) screen.add_text(facts);
+  screen.add_warnings(input.warnings);
+  return screen.text(hints);
+}
+
+void add_recordings(Screen& screen, const std::vector<JsonNode>& recordings) {
+  for (const JsonNode& recording : recordings) {
+    const std::string motion = recording.text_at("status");
+    const auto predicted = recording.known("joint", "spacing_left_out_m");
+    screen.add_recording({printable(recording.text_at("id")), speed_text(conditions_of(recording.member("recording"))),
+                          motion == name_of(MotionClass::StickSlip)
+                              ? estimate_text(estimate_of(recording, kMeasured.front()), "m")
+                              : plain_words(motion),
+                          estimate_text(predicted ? predicted->estimate() : Estimate{}, "m")});
+  }
+}
+
+std::string summary_of_sweep(SummaryInput input, const std::vector<JsonNode>& recordings, const SummaryHints& hints) {
+  const std::string name = printable(input.document.text_at("id"));
+  if (!input.document.has("model")) {
+    Screen screen(fmt::format("{}: {} recordings, no joint fit", name, recordings.size()));
+    screen.add_text(sentence("Reason: " + input.document.text_at("status_reason")));
+    screen.add_warnings(input.warnings);
+    return screen.text(hints);
+  }
+  Screen screen(fmt::format("{}: {} recordings fitted together", name, recordings.size()));
+  add_parameters(screen, input);
+  add_critical_speed(screen, input);
+  screen.number_notes();
+  add_below_table(screen, input);
+  if (const std::string facts = facts_text(input.warnings); !facts.empty()) screen.add_text(facts);
+  if (recordings.size() <= kMostListed) add_recordings(screen, recordings);
+  screen.add_warnings(input.warnings);
+  return screen.text(hints);
+}
+
+std::string summary_of(const JsonNode& document, const SummaryHints& hints) {
+  SummaryInput input{document, {}, parameters_of(document), warnings_of(document)};
+  if (!document.has("recordings")) {
+    input.conditions = conditions_of(document.member("recording"));
+    input.zero_is_known = input.conditions.zero_force_N.has_value();
+    return summary_of_recording(input, hints);
+  }
+  const std::vector<JsonNode> recordings = document.elements("recordings");
+  input.zero_is_known = std::ranges::all_of(
+      recordings, [](const JsonNode& one) { return one.member("recording").number_at("zero_force_N").has_value(); });
+  if (!recordings.empty()) input.conditions = conditions_of(recordings.front().member("recording"));
+  input.conditions.quantity = ForceQuantity::Force_N;
+  return summary_of_sweep(std::move(input), recordings, hints);
+}
+
+/// Returns `view(document)` of a document that this library wrote.
+template <class View>
+std::string view_of(const std::string& content, const View& view) {
+  const std::string name;
+  const nlohmann::json json = nlohmann::json::parse(content);
+  return view(JsonNode(name, json));
 }
 
 }  // namespace
 
 std::string headline_of(const Recording& recording, const Analysis& analysis) {
-  std::string file = recording.provenance().file;
-  if (file.size() > kLongestName) file = std::filesystem::path(file).filename().string();
-  std::string text =
-      fmt::format("{}: {}", file.empty() ? "recording" : printable(file), words_for_motion(analysis.motion));
-  const Estimate& frequency = analysis.frequency.quoted;
-  if (frequency.value) {
-    const EstimateRow row = estimate_row(frequency, std::string("Hz"));
-    text += fmt::format(" at {} Hz{}", row.value, row.interval.empty() ? "" : " " + row.interval);
-    if (analysis.cycles.count > 0) text += fmt::format(", {} slips", analysis.cycles.count);
-  }
-  return text + ", driven at " + speed_text(recording.conditions());
+  return view_of(to_json(recording, analysis), [](const JsonNode& document) {
+    return headline_of(document, conditions_of(document.member("recording")));
+  });
 }
 
 std::string to_summary(const Recording& recording, const Analysis& analysis, const SummaryHints& hints) {
-  const Conditions& conditions = recording.conditions();
-  Screen screen(headline_of(recording, analysis));
-  const bool has_slips = analysis.motion != MotionClass::SteadySliding;
-  const bool has_fit = analysis.fit && has_slips;
-  if (has_fit) add_parameters(screen, *analysis.fit, conditions.zero_force_N.has_value());
-  const Derived& derived = analysis.derived;
-  screen.add_measured(kMeasured.front(), derived.pattern_spacing_m, conditions);
-  if (const Estimate& critical = derived.critical_speed_m_per_s; critical.value) {
-    const Quantity& quantity = quantity_with_key("critical_speed_m_per_s");
-    const StatusAndNote known = critical_speed_status(analysis);
-    screen.add_row(quantity.words, estimate_row(quantity, critical, conditions), known.status, known.note);
-  }
-  if (analysis.coefficients) {
-    for (const auto& row : kCoefficients) screen.add_measured(row, row.of(*analysis.coefficients), conditions);
-  }
-  if (analysis.motion != MotionClass::StickSlip && !analysis.motion_reason.empty())
-    screen.add_text(sentence("Reason: " + printable(analysis.motion_reason)));
-  if (!analysis.fit && has_slips) add_cycles(screen, analysis.cycles, conditions);
-  screen.number_notes();
-  if (has_fit) add_below_table(screen, *analysis.fit, conditions.quantity);
-  if (const std::string facts = facts_text(analysis.warnings); !facts.empty()) screen.add_text(facts);
-  screen.add_warnings(analysis.warnings);
-  return screen.text(hints);
+  return view_of(to_json(recording, analysis), [&](const JsonNode& document) { return summary_of(document, hints); });
 }
 
 std::string to_summary(std::span<const SweepEntry> entries, const SweepAnalysis& sweep, const std::string& name,
                        const SummaryHints& hints) {
-  if (!sweep.fit) {
-    Screen screen(fmt::format("{}: {} recordings, no joint fit", printable(name), entries.size()));
-    screen.add_text(sentence("Reason: " + sweep.fit_reason));
-    screen.add_warnings(sweep.warnings);
-    return screen.text(hints);
-  }
-  Screen screen(fmt::format("{}: {} recordings fitted together", printable(name), entries.size()));
-  const bool zero_is_known = std::ranges::all_of(
-      entries, [](const SweepEntry& entry) { return entry.recording.conditions().zero_force_N.has_value(); });
-  add_parameters(screen, sweep.fit->result, zero_is_known);
-  if (const Estimate& critical = sweep.derived.critical_speed_m_per_s; critical.value) {
-    const Quantity& quantity = quantity_with_key("critical_speed_m_per_s");
-    screen.add_row(quantity.words, estimate_row(quantity, critical, entries.front().recording.conditions()), "derived",
-                   {});
-  }
-  screen.number_notes();
-  add_below_table(screen, sweep.fit->result, ForceQuantity::Force_N);
-  if (const std::string facts = facts_text(sweep.warnings); !facts.empty()) screen.add_text(facts);
-  for (std::size_t i = 0; i < entries.size() && entries.size() <= kMostListed; ++i) {
-    const Analysis& analysis = sweep.recordings[i];
-    const bool sticks = analysis.motion == MotionClass::StickSlip;
-    screen.add_recording(
-        {printable(entries[i].id), speed_text(entries[i].recording.conditions()),
-         sticks ? estimate_text(analysis.derived.pattern_spacing_m, "m") : plain_words(name_of(analysis.motion)),
-         estimate_text(sweep.fit->points[i].spacing_left_out_m, "m")});
-  }
-  screen.add_warnings(sweep.warnings);
-  return screen.text(hints);
+  return view_of(to_json(entries, sweep, {.id = name}),
+                 [&](const JsonNode& document) { return summary_of(document, hints); });
+}
+
+Result<std::string> summary_of_document(const std::string& content, const std::string& name,
+                                        const SummaryHints& hints) {
+  return documents::with_document<std::string>(content, name,
+                                               [&](const JsonNode& document) { return summary_of(document, hints); });
 }
 
 }  // namespace slipfit

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "examples.hpp"
+#include "slipfit/report/json.hpp"
 #include "slipfit/report/text.hpp"
 
 using Catch::Contains;
@@ -71,6 +72,14 @@ TEST_CASE("the summary orders warnings by their effect and leaves facts to a sen
   const std::string text = summary_of(analysis);
   CHECK(text.find("! a stiffness of 1 MN/m.") < text.find("! the period drifts."));
   CHECK_THAT(text, Contains("3 gaps in the clock.") && !Contains("! 3 gaps"));
+}
+
+TEST_CASE("a saved document has the summary of its fit") {
+  const slipfit::Recording recording = test::small_recording();
+  const slipfit::Analysis analysis = test::full_analysis();
+  const auto saved = slipfit::summary_of_document(to_json(recording, analysis), "run.json", {"more", "all"});
+  CHECK(saved.value() == to_summary(recording, analysis, {"more", "all"}));
+  CHECK(slipfit::summary_of_document("{}", "run.json").error().code == "bad_document");
 }
 
 TEST_CASE("an analysis without results has a summary without numbers") {

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <cmath>
 
 #include "report/names.hpp"
@@ -12,20 +11,12 @@
 namespace slipfit::documents {
 namespace {
 
-constexpr std::array kMotions{MotionClass::StickSlip, MotionClass::SteadySliding, MotionClass::OscillatorySlip,
-                              MotionClass::Undetermined};
-constexpr std::array kStatuses{ParameterStatus::Identified,   ParameterStatus::Weak,  ParameterStatus::Bounded,
-                               ParameterStatus::Unidentified, ParameterStatus::Fixed, ParameterStatus::Conditional};
-
 /// Refuses a text that is not the name of one of the choices.
 template <class Choices>
 void check_name(const JsonNode& node, const Choices& choices) {
-  const std::string text = node.text();
+  if (with_name(choices, node.text())) return;
   std::string known;
-  for (const auto choice : choices) {
-    if (name_of(choice) == text) return;
-    known += (known.empty() ? "" : ", ") + std::string(name_of(choice));
-  }
+  for (const auto choice : choices) known += (known.empty() ? "" : ", ") + std::string(name_of(choice));
   node.fail("one of " + known);
 }
 
@@ -60,7 +51,7 @@ void check_numbers(const JsonNode& node) {
 
 void check_parameter(const std::string& key, const JsonNode& parameter) {
   if (!parameter.has("status")) return;
-  check_name(parameter.member("status"), kStatuses);
+  check_name(parameter.member("status"), kParameterStatuses);
   const std::optional<ParameterId> id = parameter_with_key(key);
   const std::optional<JsonNode> node = parameter.known("value");
   if (!id || !node) return;

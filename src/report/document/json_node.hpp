@@ -39,6 +39,14 @@ class JsonNode {
   [[nodiscard]] std::vector<Member> members() const;
   [[nodiscard]] JsonNode element(std::size_t index) const;  ///< index < array_size()
   [[nodiscard]] std::size_t array_size() const;
+  /// Returns the elements of a list that may be absent: a member, or a member of that member.
+  template <class... Keys>
+  [[nodiscard]] std::vector<JsonNode> elements(const Keys&... keys) const {
+    const std::optional<JsonNode> list = known(keys...);
+    std::vector<JsonNode> all;
+    for (std::size_t i = 0; list && i < list->array_size(); ++i) all.push_back(list->element(i));
+    return all;
+  }
   [[nodiscard]] std::string text() const;
   /// The value as JSON on one line.
   [[nodiscard]] std::string json_text() const { return content_.dump(); }
