@@ -25,7 +25,7 @@ using documents::JsonNode;
 
 constexpr std::size_t kMostLines = 25;    // of a summary: one screen
 constexpr std::size_t kMostWarnings = 5;  // those with the largest effect
-constexpr std::size_t kMostFootnotes = 3;
+constexpr std::size_t kMostFootnoteLines = 9;
 constexpr std::size_t kBelowSentences = 2;   // a blank line and the pointer to all results
 constexpr std::size_t kRoomForWarnings = 6;  // a blank line, a warning of two lines, and what is below it
 constexpr std::size_t kLongestName = 32;     // of a path in the headline; of a longer one the name of the file
@@ -42,6 +42,10 @@ std::string shortened(const std::string& text) {
   return text.size() > 2 * (kLineWidth - 4) ? text.substr(0, text.find(';')) : text;
 }
 
+std::vector<std::string> footnote(std::size_t index, const std::string& note) {
+  return wrapped(fmt::format("  ({}) ", index + 1), sentence(printable(note)));
+}
+
 /// Collects rows and footnotes, then the lines below them until the screen is full.
 class Screen {
  public:
@@ -54,6 +58,7 @@ class Screen {
     const bool is_noted = status != name_of(ParameterStatus::Identified);
     rows_.push_back({std::string(label), value_text(row), row.interval, std::move(status)});
     notes_of_rows_.push_back(is_noted ? note : std::string());
+    all_notes_.push_back(notes_of_rows_.back());
   }
   void add_parameter(const Parameter& parameter) {
     const ParameterInfo& known = info(parameter.id);
@@ -62,40 +67,67 @@ class Screen {
     if (row.value == "-" && !row.interval.empty() && !row.unit.empty()) row.interval += " " + row.unit;
     add_row(known.words, row, std::string(name_of(parameter.status)), parameter.estimate.note);
   }
-  /// Numbers the notes of the rows, of which one that continues another one has a footnote for the rest alone.
+  /// Adds a parameter that the data do not determine.
+  void add_open(std::string_view label, const std::string& reason) {
+    open_.emplace_back(label, reason);
+    all_notes_.push_back(reason);
+  }
+  /// Numbers the notes of the rows; a part that several notes have in common has one footnote.
   void number_notes() {
-    for (std::size_t i = 0; i < rows_.size(); ++i) {
-      for (const std::string& part : parts_of(notes_of_rows_[i])) {
-        if (notes_.size() < kMostFootnotes && std::ranges::find(notes_, part) == notes_.end()) notes_.push_back(part);
+    std::size_t lines = 0;
+    for (const std::string& note : notes_of_rows_) {
+      for (const std::string& part : parts_of(note)) {
+        if (std::ranges::find(notes_, part) != notes_.end()) continue;
+        const std::size_t more = footnote(0, part).size();
+        if (lines + more > kMostFootnoteLines) continue;
+        lines += more;
+        notes_.push_back(part);
       }
     }
     for (std::size_t i = 0; i < rows_.size(); ++i) {
       if (const std::string numbers = numbers_of(notes_of_rows_[i]); !numbers.empty()) rows_[i].back() += " " + numbers;
     }
   }
-  /// "(1)" where footnotes have this note, else the note itself.
-  [[nodiscard]] std::string reference(const std::string& note) const {
-    const std::string numbers = numbers_of(note);
-    return numbers.empty() ? note : numbers;
-  }
   /// Adds a measured quantity; nothing if its value is not known.
   void add_measured(const Quantity& quantity, const Estimate& estimate, const Conditions& conditions) {
     if (estimate.value) add_row(full_words(quantity), estimate_row(quantity, estimate, conditions), "measured", {});
   }
   void add_recording(Row row) { recordings_.push_back(std::move(row)); }
-  void add_text(const std::string& text) { below_.push_back(wrapped("  ", text)); }
+  void add_text(const std::string& text) {
+    if (!text.empty()) below_.push_back(wrapped("  ", text));
+  }
+  void add_open_parameters();
   void add_warnings(const Warnings& warnings);
 
   [[nodiscard]] std::string text(const SummaryHints& hints) const;
 
  private:
-  /// Returns the note, or the note of another row with which it begins and the rest.
+  /// Returns whether the clauses follow each other in every note that has one of them.
+  [[nodiscard]] bool always_together(const std::string& first, const std::string& second) const {
+    const auto has = [](const std::string& note, const std::string& clauses) {
+      return ("; " + note + "; ").find("; " + clauses + "; ") != std::string::npos;
+    };
+    return std::ranges::all_of(all_notes_, [&](const std::string& note) {
+      const bool has_both = has(note, first + "; " + second);
+      return has(note, first) == has_both && has(note, second) == has_both;
+    });
+  }
+  /// Returns the note in parts: runs of its clauses that no note separates.
   [[nodiscard]] std::vector<std::string> parts_of(const std::string& note) const {
-    if (note.empty()) return {};
-    for (const std::string& other : notes_of_rows_) {
-      if (!other.empty() && note.starts_with(other + "; ")) return {other, note.substr(other.size() + 2)};
+    std::vector<std::string> parts;
+    std::string last;
+    for (std::size_t begin = 0; begin < note.size();) {
+      const std::size_t end = std::min(note.find("; ", begin), note.size());
+      const std::string clause = note.substr(begin, end - begin);
+      if (parts.empty() || !always_together(last, clause)) {
+        parts.push_back(clause);
+      } else {
+        parts.back() += "; " + clause;
+      }
+      last = clause;
+      begin = end + 2;
     }
-    return {note};
+    return parts;
   }
   /// "(1, 2)": the footnotes that have this note; empty where one is missing.
   [[nodiscard]] std::string numbers_of(const std::string& note) const {
@@ -107,14 +139,21 @@ class Screen {
     }
     return numbers.empty() ? numbers : "(" + numbers + ")";
   }
-  [[nodiscard]] bool has_footnote(const std::string& message) const {
-    return std::ranges::any_of(notes_,
-                               [&](const std::string& note) { return note.find(message) != std::string::npos; });
+  /// Returns the parts of a message that no footnote says.
+  [[nodiscard]] std::string without_footnotes(const std::string& message) const {
+    std::string rest;
+    for (const std::string& part : parts_of(message)) {
+      const auto says_it = [&](const std::string& note) { return note.find(part) != std::string::npos; };
+      if (!std::ranges::any_of(notes_, says_it)) rest += (rest.empty() ? "" : "; ") + part;
+    }
+    return rest;
   }
 
   std::string headline_;
   std::vector<Row> rows_;
-  std::vector<std::string> notes_of_rows_;  ///< empty: none
+  std::vector<std::string> notes_of_rows_;                 ///< empty: none
+  std::vector<std::pair<std::string, std::string>> open_;  ///< parameters that are not determined, and why
+  std::vector<std::string> all_notes_;
   std::vector<Row> recordings_;
   std::vector<std::string> notes_;  ///< footnotes, in their order
   std::vector<std::vector<std::string>> below_;
@@ -122,13 +161,44 @@ class Screen {
   std::size_t warnings_left_out_ = 0;
 };
 
+/// "Not determined: natural frequency w_n, damping ratio zeta: the slip has 4.1 samples.", each reason once.
+void Screen::add_open_parameters() {
+  struct Group {
+    std::string names;
+    std::vector<std::string> parts;
+  };
+  std::vector<Group> groups;
+  for (const auto& [name, reason] : open_) {
+    const std::vector<std::string> parts = parts_of(reason);
+    auto group = std::ranges::find_if(groups, [&](const Group& one) {
+      return one.parts.empty() ? parts.empty() : !parts.empty() && one.parts.front() == parts.front();
+    });
+    if (group == groups.end()) group = groups.insert(group, Group{});
+    group->names += (group->names.empty() ? "" : ", ") + name;
+    for (const std::string& part : parts) {
+      if (std::ranges::find(group->parts, part) == group->parts.end()) group->parts.push_back(part);
+    }
+  }
+  for (const Group& group : groups) {
+    std::string numbers;
+    std::string reason;
+    for (const std::string& part : group.parts) {
+      const std::string number = numbers_of(part);
+      (number.empty() ? reason : numbers) +=
+          number.empty() ? (reason.empty() ? ": " : "; ") + printable(part) : " " + number;
+    }
+    add_text(sentence("Not determined: " + group.names + numbers + reason));
+  }
+}
+
 void Screen::add_warnings(const Warnings& warnings) {
   for (const Warning& warning : by_effect(warnings)) {
-    if (is_fact(warning) || has_footnote(warning.message)) continue;
+    const std::string message = is_fact(warning) ? std::string() : without_footnotes(warning.message);
+    if (message.empty()) continue;
     if (warnings_.size() == kMostWarnings) {
       ++warnings_left_out_;
     } else {
-      warnings_.push_back(wrapped("  ! ", sentence(shortened(printable(warning.message)))));
+      warnings_.push_back(wrapped("  ! ", sentence(shortened(printable(message)))));
     }
   }
 }
@@ -152,7 +222,7 @@ std::string Screen::text(const SummaryHints& hints) const {
   put_table({"recording", "speed", std::string(kMeasured.front().words), "predicted from the others"}, recordings_);
   if (!notes_.empty() || !below_.empty()) put("");
   for (std::size_t i = 0; i < notes_.size(); ++i) {
-    for (const std::string& line : wrapped(fmt::format("  ({}) ", i + 1), sentence(printable(notes_[i])))) put(line);
+    for (const std::string& line : footnote(i, notes_[i])) put(line);
   }
   for (const std::vector<std::string>& sentences : below_) {
     if (lines + sentences.size() + (warnings_.empty() ? kBelowSentences : kRoomForWarnings) > kMostLines) continue;
@@ -244,21 +314,6 @@ Estimate estimate_of(const JsonNode& document, const Quantity& quantity) {
 }
 
 /// "Not determined: natural frequency w_n, damping ratio zeta: the slip has 4.1 samples."
-std::string not_determined(const std::vector<Parameter>& parameters, const Screen& screen) {
-  std::string names;
-  std::string reason;
-  for (const Parameter& parameter : parameters) {
-    if (parameter.status != ParameterStatus::Unidentified || !is_headline(parameter.id)) continue;
-    names += (names.empty() ? "" : ", ") + std::string(info(parameter.id).words);
-    if (reason.empty()) reason = parameter.estimate.note;
-  }
-  if (names.empty()) return {};
-  if (reason.empty()) return sentence("Not determined: " + names);
-  const std::string shown = screen.reference(reason);
-  return shown == reason ? sentence("Not determined: " + names + ": " + printable(reason))
-                         : sentence("Not determined: " + names + " " + shown);
-}
-
 std::string terms_text(const JsonNode& document) {
   std::string terms;
   for (const JsonNode& term : document.elements("model", "terms")) {
@@ -301,7 +356,9 @@ void add_parameters(Screen& screen, const SummaryInput& input) {
   for (const Parameter& parameter : input.parameters) {
     const bool is_known = parameter.status != ParameterStatus::Unidentified;
     const bool has_zero = input.zero_is_known || !info(parameter.id).depends_on_sensor_zero;
-    if (is_known && has_zero && is_headline(parameter.id)) screen.add_parameter(parameter);
+    if (!is_headline(parameter.id)) continue;
+    if (!is_known) screen.add_open(info(parameter.id).words, parameter.estimate.note);
+    if (is_known && has_zero) screen.add_parameter(parameter);
   }
 }
 
@@ -327,11 +384,9 @@ void add_cycles(Screen& screen, const SummaryInput& input) {
 }
 
 void add_below_table(Screen& screen, const SummaryInput& input) {
-  for (const std::string& text :
-       {not_determined(input.parameters, screen), residual_sentence(input.document, input.conditions.quantity),
-        terms_text(input.document)}) {
-    if (!text.empty()) screen.add_text(text);
-  }
+  screen.add_open_parameters();
+  screen.add_text(residual_sentence(input.document, input.conditions.quantity));
+  screen.add_text(terms_text(input.document));
 }
 
 MotionClass motion_of(const JsonNode& document) {
@@ -369,7 +424,7 @@ std::string summary_of_recording(const SummaryInput& input, const SummaryHints& 
   if (!is_fitted && has_slips) add_cycles(screen, input);
   screen.number_notes();
   if (is_fitted && has_slips) add_below_table(screen, input);
-  if (const std::string facts = facts_text(input.warnings); !facts.empty()) screen.add_text(facts);
+  screen.add_text(facts_text(input.warnings));
   screen.add_warnings(input.warnings);
   return screen.text(hints);
 }
@@ -399,7 +454,7 @@ std::string summary_of_sweep(SummaryInput input, const std::vector<JsonNode>& re
   add_critical_speed(screen, input);
   screen.number_notes();
   add_below_table(screen, input);
-  if (const std::string facts = facts_text(input.warnings); !facts.empty()) screen.add_text(facts);
+  screen.add_text(facts_text(input.warnings));
   if (recordings.size() <= kMostListed) add_recordings(screen, recordings);
   screen.add_warnings(input.warnings);
   return screen.text(hints);

@@ -49,6 +49,29 @@ TEST_CASE("a note that continues another one is numbered for its rest alone") {
   CHECK_THAT(text, Contains("(1) the slips are rounded.\n") && Contains("(2) at a stick time of 1 s.\n"));
 }
 
+TEST_CASE("a reason is printed once, for every parameter that is not determined and in footnotes") {
+  slipfit::Analysis analysis = test::full_analysis();
+  for (slipfit::Parameter& parameter : analysis.fit->parameters) {
+    const bool is_bounded = parameter.id == slipfit::ParameterId::FrictionDifference;
+    parameter.status = is_bounded ? slipfit::ParameterStatus::Bounded : slipfit::ParameterStatus::Unidentified;
+    parameter.estimate.note = is_bounded ? "between half and all of the drop; the slip is no oscillation"
+                              : parameter.id == slipfit::ParameterId::StaticFriction
+                                  ? "needs --zero"
+                                  : "the slip is no oscillation; the sensor may be slow";
+  }
+  analysis.warnings = {{"model_misfit", "the sensor may be slow; the slips are rounded"}};
+  const std::string text = summary_of(analysis);
+  const auto count_of = [&text](const std::string& words) {
+    std::size_t count = 0;
+    for (std::size_t at = text.find(words); at != std::string::npos; at = text.find(words, at + 1)) ++count;
+    return count;
+  };
+  CHECK_THAT(text, Contains("bounded (1, 2)") && Contains("Not determined: static friction F_s: needs --zero."));
+  CHECK(count_of("no oscillation") == 1);
+  CHECK(count_of("needs --zero") == 1);
+  CHECK(count_of("Not determined") == 2);
+}
+
 TEST_CASE("a summary is at most one screen") {
   slipfit::Analysis analysis = test::full_analysis();
   const std::string words = "a long explanation with many words that a reader of the first screen does not need; ";

@@ -226,10 +226,8 @@ void state_doubts(const Conditions& conditions, const TierFits& fits, const Reso
                      std::sqrt(*residual.reduced_chi2))});
   }
   if (const std::optional<double>& zeta = fits.damped.refused_damping) {
-    findings.frequency_unknown = fmt::format(
-        "the slip is not a damped oscillation (best damping ratio {:.2f}): friction, creep or the sensor may determine "
-        "the slip time instead of the mass",
-        *zeta);
+    findings.frequency_unknown = no_damped_oscillation(*zeta) +
+                                 "; friction, creep or the sensor may determine the slip time instead of the mass";
     findings.slip_doubt = findings.frequency_unknown;
   } else if (fits.damped.misfit) {
     // A sensor that lags, or creep, moves w_n more than leaving out parts of the slip shows.

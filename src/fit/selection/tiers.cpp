@@ -124,6 +124,10 @@ Candidate requested(Candidate candidate) {
   return candidate;
 }
 
+std::string no_damped_oscillation(double best_damping_ratio) {
+  return fmt::format("the slip is not a damped oscillation (best damping ratio {:.2f})", best_damping_ratio);
+}
+
 Resolution resolution_of(const Recording& recording, const TierFits& fits) {
   const BlockFit& blocks = fits.damped.blocks;
   Resolution result;
@@ -135,9 +139,7 @@ Resolution resolution_of(const Recording& recording, const TierFits& fits) {
   }
   result.slip_resolved = true;
   if (!held && fits.damped.refused_damping) {
-    result.reason =
-        fmt::format("the slip does not follow a damped oscillation: the best damping ratio is negative, {:.2f}",
-                    *fits.damped.refused_damping);
+    result.reason = no_damped_oscillation(*fits.damped.refused_damping);
   } else if (!held && !(damping_error(fits.damped) < thresholds::kInformativeDamping)) {
     result.reason = fmt::format("the standard error of the damping ratio is {:.2g}; {}", damping_error(fits.damped),
                                 result.samples_per_slip < 6.0

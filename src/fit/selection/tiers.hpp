@@ -76,6 +76,9 @@ double gain_of(const DampedFit& fit, const DampedFit& other);
 /// "the slip has 1.4 samples; sample at 8.0 kHz or more": for 6 samples in a slip.
 std::string too_few_samples(double samples_per_slip, double sample_interval_s);
 
+/// "the slip is not a damped oscillation (best damping ratio -0.29)"
+std::string no_damped_oscillation(double best_damping_ratio);
+
 Resolution resolution_of(const Recording& recording, const TierFits& fits);
 
 /// Chosen by the user whatever the data say.
