@@ -167,14 +167,14 @@ std::string to_text(const Comparison& comparison) {
   std::string text = fmt::format("A: {}\nB: {}\n\n{}\n", side_text(comparison.a), side_text(comparison.b),
                                  comparison_sentence(comparison));
   text += "  5 % level for all quantities together (p adjusted by Holm); 95 % intervals for each quantity\n\n";
-  Table table({Align::Left, Align::Right, Align::Right, Align::Right, Align::Left, Align::Right, Align::Left,
-               Align::Right, Align::Right, Align::Left});
-  table.add({"", "A", "B", "B - A", "", "B / A", "", "p", "p (Holm)", ""});
+  Table table({Align::Left, Align::Right, Align::Right, Align::Right, Align::Left, Align::Right, Align::Left});
+  table.add({"", "A", "B", "B - A", "", "B / A", "p (Holm)"});
+  Footnotes notes;
   for (const ComparisonRow& row : comparison_rows(comparison)) {
     table.add({row.words, row.a.value, row.b.value, row.difference.value, row.difference.interval, row.ratio.value,
-               row.ratio.interval, row.p_value, row.p_adjusted + (row.differs ? " *" : "  "), row.note});
+               row.p_adjusted + (row.differs ? " *" : "") + notes.mark(row.note)});
   }
-  text += table.text();
+  text += table.text() + notes.text();
   const std::vector<NotCompared> left = not_compared(comparison);
   if (!left.empty()) text += "\nNot compared\n";
   for (const NotCompared& one : left) text += wrapped_text("  ", one.words + ": " + printable(one.reason));

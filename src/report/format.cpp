@@ -230,6 +230,21 @@ std::string Table::text() const {
   return text;
 }
 
+std::string Footnotes::mark(const std::string& note) {
+  if (note.empty()) return {};
+  const auto known = std::ranges::find(notes_, note);
+  const auto index = known - notes_.begin();
+  if (known == notes_.end()) notes_.push_back(note);
+  return fmt::format(" ({})", index + 1);
+}
+
+std::string Footnotes::text() const {
+  std::string text;
+  for (std::size_t i = 0; i < notes_.size(); ++i)
+    text += wrapped_text(fmt::format("  ({}) ", i + 1), printable(notes_[i]));
+  return text;
+}
+
 std::string value_text(const EstimateRow& row) {
   return row.unit.empty() || row.value == "-" ? row.value : row.value + " " + row.unit;
 }

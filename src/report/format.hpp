@@ -94,6 +94,17 @@ class Table {
   std::vector<std::vector<std::string>> rows_;
 };
 
+/// Notes of the rows of a table, each once; the rows that it is about bear its number.
+class Footnotes {
+ public:
+  /// " (1)"; empty without a note.
+  std::string mark(const std::string& note);
+  [[nodiscard]] std::string text() const;
+
+ private:
+  std::vector<std::string> notes_;
+};
+
 /// Returns the value of a row with its unit.
 [[nodiscard]] std::string value_text(const EstimateRow& row);
 

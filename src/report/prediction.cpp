@@ -6,6 +6,7 @@
 #include <iterator>
 #include <optional>
 
+#include "core/quantile.hpp"
 #include "report/format.hpp"
 #include "report/json_sections.hpp"
 #include "report/json_values.hpp"
@@ -44,36 +45,24 @@ std::string header() {
 }
 
 std::string regime_words(const PredictedMotion& row, const std::string& mark) {
-  return (is_bistable(row) ? "stick-slip, bistable" : plain_words(name_of(row.regime))) + mark;
+  std::string words = is_bistable(row) ? "bistable" : plain_words(name_of(row.regime));
+  constexpr std::string_view kSlip = " slip";  // "oscillatory" under "regime" keeps the table narrow
+  if (words.ends_with(kSlip)) words.resize(words.size() - kSlip.size());
+  return words + mark;
 }
 
-bool is_in_text(const Quantity& quantity) {
-  constexpr auto kShown =
-      std::to_array<std::string_view>({"period_s", "frequency_Hz", "periodic_displacement_m", "sticking_degree"});
-  return std::ranges::find(kShown, quantity.key) != kShown.end();
+/// The columns of the text; the period is 1 / frequency.
+constexpr auto kColumns =
+    std::to_array<std::string_view>({"frequency_Hz", "sticking_degree", "periodic_displacement_m"});
+
+/// Returns the unit that suits the median of the values.
+DisplayUnit column_unit(const Prediction& prediction, const QuantityOf<PredictedMotion>& quantity) {
+  std::vector<double> values;
+  for (const PredictedMotion& row : prediction.rows) {
+    if (const auto value = quantity.of(row).value) values.push_back(*value);
+  }
+  return display_unit(std::string(quantity.unit), values.empty() ? std::nullopt : std::optional(median(values)));
 }
-
-/// Each note of the rows once; the rows that it is about bear its mark.
-class Footnotes {
- public:
-  std::string mark(const std::string& note) {
-    if (note.empty()) return {};
-    const auto known = std::ranges::find(notes_, note);
-    const auto index = static_cast<std::size_t>(known - notes_.begin());
-    if (known == notes_.end()) notes_.push_back(note);
-    return " " + std::string(index + 1, '*');
-  }
-  [[nodiscard]] std::string text() const {
-    std::string text;
-    for (std::size_t i = 0; i < notes_.size(); ++i) {
-      text += wrapped_text(fmt::format("  {} ", std::string(i + 1, '*')), printable(notes_[i]));
-    }
-    return text;
-  }
-
- private:
-  std::vector<std::string> notes_;
-};
 
 }  // namespace
 
@@ -106,28 +95,42 @@ std::string prediction_to_csv(const Prediction& prediction) {
 }
 
 std::string to_text(const Prediction& prediction, const PredictionSource& source) {
-  Table table({Align::Right, Align::Left, Align::Left, Align::Left, Align::Left, Align::Left});
-  std::vector<std::string> head{"speed"};
+  std::vector<std::vector<std::string>> rows(prediction.rows.size() + 3);  // below a heading of three lines
+  const auto add_column = [&](const std::string& words, const std::string& unit, const auto& cell_of) {
+    const std::size_t blank = words.rfind(' ');
+    rows[0].push_back(blank == std::string::npos ? "" : words.substr(0, blank));
+    rows[1].push_back(words.substr(blank + 1));
+    rows[2].push_back(unit.empty() ? unit : "[" + unit + "]");
+    for (std::size_t i = 0; i < prediction.rows.size(); ++i) rows[i + 3].push_back(cell_of(prediction.rows[i]));
+  };
+  const DisplayUnit speed =
+      speed_unit(source.speed_unit, prediction.rows.empty()
+                                        ? std::nullopt
+                                        : std::optional(prediction.rows[prediction.rows.size() / 2].speed_m_per_s));
+  add_column("speed", speed.unit, [&](const PredictedMotion& row) {
+    return quantity_text(row.speed_m_per_s, {speed.per_SI, {}});
+  });
   for (const auto& quantity : kMotionQuantities) {
-    if (is_in_text(quantity)) head.emplace_back(quantity.words);
+    if (std::ranges::find(kColumns, quantity.key) == kColumns.end()) continue;
+    const DisplayUnit unit = column_unit(prediction, quantity);
+    add_column(std::string(quantity.words), unit.unit, [&](const PredictedMotion& row) {
+      return estimate_text(quantity.of(row), DisplayUnit{unit.per_SI, {}});
+    });
   }
-  head.emplace_back("regime");
-  table.add(std::move(head));
   Footnotes notes;
-  bool has_bands = false;
-  for (const PredictedMotion& row : prediction.rows) {
-    std::vector<std::string> cells{quantity_text(row.speed_m_per_s, speed_unit(source.speed_unit, row.speed_m_per_s))};
-    for (const auto& quantity : kMotionQuantities) {
-      if (is_in_text(quantity)) cells.push_back(estimate_text(quantity.of(row), std::string(quantity.unit)));
-    }
-    cells.push_back(regime_words(row, notes.mark(row.note)));
-    table.add(std::move(cells));
-    has_bands = has_bands || row.lambda.ci95.has_value();
-  }
+  add_column("regime", {}, [&](const PredictedMotion& row) { return regime_words(row, notes.mark(row.note)); });
+  Table table({Align::Right, Align::Left, Align::Left, Align::Left, Align::Left});
+  for (std::vector<std::string>& row : rows) table.add(std::move(row));
+  const bool has_bands =
+      std::ranges::any_of(prediction.rows, [](const PredictedMotion& row) { return row.lambda.ci95.has_value(); });
   return fmt::format("Predicted from {}{}\n", printable(source.name),
                      has_bands ? ", [95 % interval of the mean cycle]" : "") +
          critical_speed_text(prediction.critical_speed_m_per_s, prediction.lambda_critical, source.speed_unit) +
-         conditions_text(source.conditional_on) + "\n" + table.text() + notes.text() + warnings_text(source.warnings);
+         conditions_text(source.conditional_on) + "\n" + table.text() +
+         (std::ranges::any_of(prediction.rows, is_bistable)
+              ? "  bistable: stick-slip from rest; steady sliding is stable as well\n"
+              : "") +
+         notes.text() + warnings_text(source.warnings);
 }
 
 }  // namespace slipfit

@@ -72,6 +72,7 @@ TEST_CASE("compare writes text and a page with the cycles of both sides") {
   CHECK(result.exit_code == 0);
   CHECK_THAT(result.out, Catch::Contains("A: a_20mmps (one recording, stick-slip, 20 mm/s)") &&
                              Catch::Contains("tangential stiffness k [N/m]") && Catch::Contains("scatter_unknown"));
+  CHECK(test::widest_line(result.out) <= 100);
   const std::string content = test::content_of(page);
   CHECK_THAT(content,
              Catch::Contains("id=\"cycles\"") && Catch::Contains("B / A") && Catch::Contains("slipfit compare"));

@@ -130,9 +130,11 @@ TEST_CASE("the table for people has prefixes and bands, and --out and --csv writ
   const std::vector<std::string> arguments{"predict", example.fit, "--speeds", "10mm/s:40mm/s:3"};
   const test::ProgramResult text = slipfit(arguments);
   CHECK(text.exit_code == 0);
-  for (const char* const part : {"critical speed: 4", "mm/s", " ms [", "mm [", "95 % interval", "Coulomb friction"}) {
+  for (const char* const part :
+       {"critical speed: 4", "[mm/s]", "[Hz]", "[mm]", "bistable:", "95 % interval", "Coulomb friction"}) {
     CHECK_THAT(text.out, Catch::Contains(part));
   }
+  CHECK(test::widest_line(slipfit({"predict", example.fit, "--speeds", "1um/s:1m/s:13"}).out) <= 100);
   const std::string out = example.folder.path("prediction.json");
   const std::string csv = example.folder.path("prediction.csv");
   std::vector<std::string> writing = arguments;

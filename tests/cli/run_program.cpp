@@ -75,4 +75,15 @@ std::size_t lines_in(const std::string& text) {
   return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
 }
 
+std::size_t widest_line(const std::string& text) {
+  std::size_t widest = 0;
+  std::size_t width = 0;
+  for (const char c : text) {
+    const bool continues = (static_cast<unsigned char>(c) & 0xC0U) == 0x80U;  // a character of UTF-8
+    width = c == '\n' ? 0 : width + (continues ? 0 : 1);
+    widest = std::max(widest, width);
+  }
+  return widest;
+}
+
 }  // namespace test

@@ -37,5 +37,6 @@ class TemporaryFolder {
 
 std::string content_of(const std::string& file);
 std::size_t lines_in(const std::string& text);
+std::size_t widest_line(const std::string& text);  ///< in characters
 
 }  // namespace test
