@@ -113,7 +113,8 @@ void run(const FitArguments& arguments, const CLI::App& command) {
   if (arguments.group || !arguments.only.empty()) {
     throw Failure(ExitCode::WrongUsage, "--group and --only select recordings of a manifest: give it with --joint");
   }
-  if (files.empty()) throw Failure(ExitCode::WrongUsage, "REC is required");
+  if (files.empty())
+    throw Failure(ExitCode::WrongUsage, "REC is required: name a recording, or a manifest with --joint");
   if (is_of_pieces(arguments.analysis)) {
     return run_pieces(arguments.analysis, fit_together(options, arguments.analysis.document));
   }

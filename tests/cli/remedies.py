@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
-"""remedies.py SLIPFIT [--table]: causes the errors of docs/formats.md#errors, and tries the remedy that each message states.
+"""remedies.py SLIPFIT [--update]: causes the errors of docs/formats.md#errors, and tries the remedy that each message states.
 
 A case is a command that is refused, words that its message must contain, and the same command with the remedy, which must
-succeed. --table prints code, message and remedy as a table."""
+succeed. docs/errors.md lists code, message and remedy of each; --update writes it anew."""
 import gzip
+import json
 import pathlib
 import re
 import struct
@@ -15,6 +16,15 @@ import zlib
 
 SLIPFIT = str(pathlib.Path(sys.argv[1]).resolve())
 PROJECT = pathlib.Path(__file__).resolve().parents[2]
+PAGE = PROJECT / "docs" / "errors.md"
+HEAD = """# Error messages
+
+Messages as `slipfit` prints them, and for each a command that succeeds: the one that was refused with the remedy that the message
+states. A test causes every message and tries every remedy; [formats.md](formats.md#errors) lists all codes with causes and exit codes.
+
+| code | message | with the remedy: `slipfit ...` |
+|---|---|---|
+"""
 V = ["--speed", "10mm/s"]
 ANALYZE = ["analyze", "ok.csv", *V]
 
@@ -110,11 +120,13 @@ def write_files(folder):
     (folder / "cofs_load.csv").write_text("id,file,speed_m_per_s,normal_force_N\na,cof.csv,0.01,2\nb,cof.csv,0.02,2\n")
     (folder / "pair.csv").write_text("id,file,speed_m_per_s\na,demo.csv,0.01\nb,demo2.csv,0.01\n")
     (folder / "bad.json").write_text("{}")
+    (folder / "summary.csv").write_text("id,file,speed_m_per_s\nok,ok.csv,0.01\n")
     model = ["--stiffness", "5000", "--natural-frequency", "900", "--damping-ratio", "0.05", "--static-friction", "4", "--kinetic-friction", "3"]
     for seed, name in ((1, "demo"), (2, "demo2")):
         run(folder, ["simulate", *model, *V, "--duration", "1", "--sample-rate", "5000", "--noise", "0.01", "--jitter", "0.03", "--seed", str(seed), "--out", f"{name}.csv"])
     run(folder, ["simulate", *model, "--speed", "500mm/s", "--duration", "1", "--sample-rate", "5000", "--noise", "0.01", "--seed", "3", "--out", "steady.csv"])
     run(folder, ["fit", "demo.csv", *V, "--json", "--out", "fit.json"])
+    (folder / "nocov.json").write_text(json.dumps({**json.loads((folder / "fit.json").read_text()), "correlation": None}))
     run(folder, ["fit", "demo.csv", *V, "--normal-force", "10N", "--json", "--out", "load.json"])
     run(folder, ["fit", "steady.csv", "--speed", "500mm/s", "--json", "--out", "steady.json"])
     run(folder, ["batch", "m.csv", "--out", "done"])
@@ -128,6 +140,7 @@ def of_file(name, *remedy):
     return command, [*command, *remedy]
 
 
+FIT = ["fit", "ok.csv", *V]
 S = ["simulate", "--stiffness", "5000", "--natural-frequency", "900", "--static-friction", "4", "--kinetic-friction", "3", *V, "--duration", "1", "--sample-rate", "5000", "--out", "s.csv"]
 B = lambda manifest, *more: ["batch", manifest, "--out", "new", *more]
 TO_M = B("m.csv", "--resume")
@@ -220,6 +233,33 @@ CASES = [  # codes, words of the message, refused command, command with the reme
     ("unknown_tier", "damped", ["fit", "demo.csv", *V, "--tier", "best"], ["fit", "demo.csv", *V, "--tier", "damped"]),
     ("unknown_fix", "damping_ratio", ["fit", "demo.csv", *V, "--fix", "zet=0.1"], ["fit", "demo.csv", *V, "--fix", "damping_ratio=0.05"]),
     ("bad_target", "", ["plan", "fit.json", "--for", "colour"], ["plan", "fit.json", "--for", "stiffness_N_per_m"]),
+    ("no_covariance", "fit --json", ["plan", "nocov.json"], ["plan", "fit.json"]),
+    ("output_is_input", "another|other", ["batch", "summary.csv", "--out", "."], ["batch", "summary.csv", "--out", "elsewhere"]),
+    ("wrong_usage", "'fit'", ["fti", "ok.csv", *V], FIT),
+    ("wrong_usage", "'--speed'", ["fit", "ok.csv", "--sped", "10mm/s"], FIT),
+    ("wrong_usage", "name a recording", ["fit"], FIT),
+    ("wrong_usage", "one of analyze", [], FIT),
+    ("wrong_usage", "give it once", [*FIT, *V], FIT),
+    ("wrong_usage", "a.html", [*FIT, "--report", "a.pdf"], [*FIT, "--report", "a.html"]),
+    ("wrong_usage", "another file", [*FIT, "--out", "ok.csv"], [*FIT, "--out", "fit.txt"]),
+    ("wrong_usage", "different files", [*FIT, "--out", "x.txt", "--cycles", "x.txt"], [*FIT, "--out", "x.txt", "--cycles", "x.csv"]),
+    ("wrong_usage", "'absent' does not exist", [*FIT, "--out", "absent/fit.txt"], [*FIT, "--out", "fit.txt"]),
+    ("wrong_usage", "one recording", ["fit", "ok.csv", "demo.csv", *V, "--cycles", "x.csv"], [*FIT, "--cycles", "x.csv"]),
+    ("wrong_usage", "cannot be combined", ["fit", "strokes.csv", *V, "--strokes", "--cycles", "x.csv"], ["fit", "strokes.csv", *V, "--strokes"]),
+    ("wrong_usage", "--joint", [*FIT, "--group", "a"], ["fit", "--joint", "pair.csv"]),
+    ("wrong_usage", "other options come after", ["fit", "--joint", "--tier", "damped", "pair.csv"], ["fit", "--joint", "pair.csv", "--tier", "damped"]),
+    ("wrong_usage", "above zero", ["fit", "ok.csv", "--speed", "0"], FIT),
+    ("wrong_usage", "mm/s", ["fit", "ok.csv", "--speed", "10 parsec"], FIT),
+    ("wrong_usage", "give F_s", [*S[:5], *S[7:]], S),
+    ("wrong_usage", "either --mass", [*S, "--mass", "1"], S),
+    ("wrong_usage", "not both", [*S, "--f0", "3", "--f1", "1", "--alpha", "-1"], S),
+    ("wrong_usage", "--speeds 1mm/s", ["predict", "fit.json"], ["predict", "fit.json", "--speeds", "1mm/s:1m/s:5"]),
+    ("wrong_usage", "give FIT.json", ["predict", "--speeds", "1mm/s"], ["predict", "fit.json", "--speeds", "1mm/s"]),
+    ("wrong_usage", "either", ["predict", "fit.json", "--speeds", "1mm/s", "--stiffness", "5000"], ["predict", "fit.json", "--speeds", "1mm/s"]),
+    ("wrong_usage", "--at", ["plan", "fit.json", "--for", "periodic_displacement_m"], ["plan", "fit.json", "--for", "periodic_displacement_m", "--at", "5mm/s"]),
+    ("wrong_usage", "give A and B", ["compare", "fit.json"], ["compare", "fit.json", "load.json"]),
+    ("wrong_usage", "I/N", B("m.csv", "--shard", "3/2"), TO_M),
+    ("wrong_usage", "1 to", B("m.csv", "--jobs", "0"), B("m.csv", "--resume", "--jobs", "1")),
 ]
 
 
@@ -238,16 +278,19 @@ def main():
             done = run(folder, refused)
             message = done.stderr.strip().split("\n")[-1] if done.stderr.strip() else ""
             after = run(folder, remedied)
-            lines.append(f"| `{code}` | {message.removeprefix('slipfit: ')} | `{' '.join(remedied)}` |")
+            remedy = " ".join(f"'{word}'" if " " in word else word for word in remedied)
+            lines.append(f"| `{code}` | {message.removeprefix('slipfit: ').replace('|', '&#124;')} | `{remedy}` |")
             if done.returncode not in (1, 2, 3) or not re.search(words, message) or message.count("\n"):
                 faults.append(f"{code}: exit code {done.returncode}, expected a message with '{words}': {message}")
             if after.returncode != 0:
                 faults.append(f"{code}: the remedy fails: slipfit {' '.join(remedied)}: {after.stderr.strip()}")
-            if code not in known:
+            if code not in known and code != "wrong_usage":
                 faults.append(f"{code}: not in docs/formats.md")
-    if "--table" in sys.argv:
-        print("| code | message | remedy, tried |\n|---|---|---|\n" + "\n".join(lines))
-        print(f"\nnot caused here: {', '.join(sorted(known - {case[0] for case in CASES}))}")
+    table = HEAD + "".join(line + "\n" for line in lines)
+    if "--update" in sys.argv:
+        PAGE.write_text(table)
+    elif PAGE.read_text() != table:
+        faults.append(f"{PAGE}: is not what {sys.argv[0]} --update writes")
     print(*faults, sep="\n", file=sys.stderr)
     print(f"{len(CASES)} errors and remedies, {len(faults)} faults", file=sys.stderr)
     return bool(faults)

@@ -65,7 +65,9 @@ PlanBasis plan_basis_from(const JsonNode& document, const std::string& name) {
   const FitDocument fit = documents::fit_document_from(document, name);
   if (!fit.model.has_covariance) {
     throw ThrownError(
-        Error{"no_covariance", fmt::format("{}: has no covariance, which a plan needs", printable(name))});
+        Error{"no_covariance",
+              fmt::format("{}: has no covariance, which a plan needs: fit its recordings again with slipfit fit --json",
+                          printable(name))});
   }
   return plan_basis_of(document, fit.model.estimate);
 }
