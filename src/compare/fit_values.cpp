@@ -3,6 +3,7 @@
 
 #include "core/unknown.hpp"
 #include "report/document/check_document.hpp"
+#include "report/document/document_values.hpp"
 #include "report/quantities.hpp"
 #include "slipfit/compare.hpp"
 
@@ -27,9 +28,10 @@ std::vector<ComparedQuantity> make_quantities() {
 }
 
 /// Returns a value for the comparison; values that are only bounded or were not measured have none.
-ComparedValue value_of(const std::optional<JsonNode>& node, const std::string& suffix) {
-  if (!node || !node->is_object()) return {unknown("its result does not contain it"), {}, true};
-  ComparedValue value{node->estimate(suffix), node->text_at("status"), false};
+ComparedValue value_in(const JsonNode& document, const ComparedQuantity& quantity) {
+  const auto found = documents::quantity_in(document, quantity_with_key(quantity.key));
+  if (!found) return {unknown("its result does not contain it"), {}, true};
+  ComparedValue value{found->estimate, found->status, false};
   Estimate& estimate = value.estimate;
   if (value.status == "bounded") {
     estimate = {{}, {}, estimate.ci95, "only its interval is known (status bounded)"};
@@ -39,11 +41,6 @@ ComparedValue value_of(const std::optional<JsonNode>& node, const std::string& s
     estimate = unknown(estimate.note.empty() ? "not known" : estimate.note);
   }
   return value;
-}
-
-ComparedValue value_in(const JsonNode& document, const ComparedQuantity& quantity) {
-  if (quantity.section == "frequency") return value_of(document.known("frequency"), "_Hz");
-  return value_of(document.known(quantity.section, quantity.key), {});
 }
 
 ComparedFit fit_from(const JsonNode& document) {

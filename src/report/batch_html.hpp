@@ -5,26 +5,22 @@
 #include <string>
 #include <vector>
 
+#include "report/document/document_values.hpp"
 #include "slipfit/core/estimate.hpp"
 #include "slipfit/core/recording.hpp"
 #include "slipfit/core/result.hpp"
 
 namespace slipfit {
 
-struct BatchPageQuantity {
-  Estimate estimate;   ///< in SI; of a bounded parameter the interval alone
-  std::string status;  ///< of a parameter: identified, conditional, ...; empty: not fitted
-};
-
 /// The row of a recording or group on the page of a batch.
 struct BatchPageRow {
   std::string id;
-  std::string status;                           ///< as in the document: stick_slip, ...
-  std::optional<double> speed_m_per_s;          ///< empty for a group
-  std::array<BatchPageQuantity, 5> quantities;  ///< frequency, spacing, stiffness, F_s - F_k, damping ratio
-  std::vector<std::string> warnings;            ///< their codes, each once
-  std::string report_file;                      ///< of its own page, relative to the batch's; empty: none
-  std::string sparkline;                        ///< of `sparkline_of`; empty: none
+  std::string status;                                     ///< as in the document: stick_slip, ...
+  std::optional<double> speed_m_per_s;                    ///< empty for a group
+  std::array<documents::DocumentQuantity, 5> quantities;  ///< frequency, spacing, stiffness, F_s - F_k, damping ratio
+  std::vector<std::string> warnings;                      ///< their codes, each once
+  std::string report_file;                                ///< of its own page, relative to the batch's; empty: none
+  std::string sparkline;                                  ///< of `sparkline_of`; empty: none
 };
 
 /// Reads a document of schema slipfit.fit/1, one line of results.jsonl, without page and sparkline. Values that the

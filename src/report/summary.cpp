@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -11,6 +12,7 @@
 
 #include "analysis/rules.hpp"
 #include "report/document/check_document.hpp"
+#include "report/document/document_values.hpp"
 #include "report/names.hpp"
 #include "report/quantities.hpp"
 #include "report/text_sections.hpp"
@@ -62,8 +64,7 @@ class Screen {
   }
   void add_parameter(const Parameter& parameter) {
     const ParameterInfo& known = info(parameter.id);
-    EstimateRow row = estimate_row(parameter.estimate, std::string(known.unit));
-    if (parameter.status == ParameterStatus::Bounded) row.value = "-";
+    EstimateRow row = parameter_row(parameter);
     if (row.value == "-" && !row.interval.empty() && !row.unit.empty()) row.interval += " " + row.unit;
     add_row(known.words, row, std::string(name_of(parameter.status)), parameter.estimate.note);
   }
@@ -85,7 +86,7 @@ class Screen {
       }
     }
     for (std::size_t i = 0; i < rows_.size(); ++i) {
-      if (const std::string numbers = numbers_of(notes_of_rows_[i]); !numbers.empty()) rows_[i].back() += " " + numbers;
+      rows_[i].back() += reference_to(notes_of_rows_[i]).numbers;
     }
   }
   /// Adds a measured quantity; nothing if its value is not known.
@@ -129,24 +130,24 @@ class Screen {
     }
     return parts;
   }
-  /// "(1, 2)": the footnotes that have this note; empty where one is missing.
-  [[nodiscard]] std::string numbers_of(const std::string& note) const {
-    std::string numbers;
-    for (const std::string& part : parts_of(note)) {
-      const auto found = std::ranges::find(notes_, part);
-      if (found == notes_.end()) return {};
-      numbers += fmt::format("{}{}", numbers.empty() ? "" : ", ", found - notes_.begin() + 1);
-    }
-    return numbers.empty() ? numbers : "(" + numbers + ")";
-  }
-  /// Returns the parts of a message that no footnote says.
-  [[nodiscard]] std::string without_footnotes(const std::string& message) const {
+  /// A note as a reference to the footnotes that say it, and what none of them says.
+  struct Reference {
+    std::string numbers;  ///< " (1, 2)", or empty
     std::string rest;
-    for (const std::string& part : parts_of(message)) {
-      const auto says_it = [&](const std::string& note) { return note.find(part) != std::string::npos; };
-      if (!std::ranges::any_of(notes_, says_it)) rest += (rest.empty() ? "" : "; ") + part;
+  };
+  [[nodiscard]] Reference reference_to(const std::string& note) const {
+    Reference reference;
+    for (const std::string& part : parts_of(note)) {
+      const auto says_it = [&](const std::string& footnote) { return footnote.find(part) != std::string::npos; };
+      const auto found = std::ranges::find_if(notes_, says_it);
+      if (found == notes_.end()) {
+        reference.rest += (reference.rest.empty() ? "" : "; ") + part;
+      } else {
+        reference.numbers += fmt::format("{}{}", reference.numbers.empty() ? " (" : ", ", found - notes_.begin() + 1);
+      }
     }
-    return rest;
+    if (!reference.numbers.empty()) reference.numbers += ")";
+    return reference;
   }
 
   std::string headline_;
@@ -164,36 +165,31 @@ class Screen {
 /// "Not determined: natural frequency w_n, damping ratio zeta: the slip has 4.1 samples.", each reason once.
 void Screen::add_open_parameters() {
   struct Group {
+    std::string first;
     std::string names;
     std::vector<std::string> parts;
   };
   std::vector<Group> groups;
   for (const auto& [name, reason] : open_) {
     const std::vector<std::string> parts = parts_of(reason);
-    auto group = std::ranges::find_if(groups, [&](const Group& one) {
-      return one.parts.empty() ? parts.empty() : !parts.empty() && one.parts.front() == parts.front();
-    });
-    if (group == groups.end()) group = groups.insert(group, Group{});
+    const std::string first = parts.empty() ? std::string() : parts.front();
+    auto group = std::ranges::find(groups, first, &Group::first);
+    if (group == groups.end()) group = groups.insert(group, Group{first, {}, {}});
     group->names += (group->names.empty() ? "" : ", ") + name;
     for (const std::string& part : parts) {
       if (std::ranges::find(group->parts, part) == group->parts.end()) group->parts.push_back(part);
     }
   }
   for (const Group& group : groups) {
-    std::string numbers;
-    std::string reason;
-    for (const std::string& part : group.parts) {
-      const std::string number = numbers_of(part);
-      (number.empty() ? reason : numbers) +=
-          number.empty() ? (reason.empty() ? ": " : "; ") + printable(part) : " " + number;
-    }
-    add_text(sentence("Not determined: " + group.names + numbers + reason));
+    const Reference reason = reference_to(fmt::format("{}", fmt::join(group.parts, "; ")));
+    const std::string rest = reason.rest.empty() ? "" : ": " + printable(reason.rest);
+    add_text(sentence("Not determined: " + group.names + reason.numbers + rest));
   }
 }
 
 void Screen::add_warnings(const Warnings& warnings) {
   for (const Warning& warning : by_effect(warnings)) {
-    const std::string message = is_fact(warning) ? std::string() : without_footnotes(warning.message);
+    const std::string message = is_fact(warning) ? std::string() : reference_to(warning.message).rest;
     if (message.empty()) continue;
     if (warnings_.size() == kMostWarnings) {
       ++warnings_left_out_;
@@ -294,26 +290,10 @@ std::vector<Parameter> parameters_of(const JsonNode& document) {
   return parameters;
 }
 
-Warnings warnings_of(const JsonNode& document) {
-  Warnings warnings;
-  for (const JsonNode& warning : document.elements("warnings"))
-    warnings.push_back({warning.text_at("code"), warning.text_at("message")});
-  return warnings;
-}
-
-/// A quantity in its section; of a friction coefficient, forces are in the object "coefficient".
 Estimate estimate_of(const JsonNode& document, const Quantity& quantity) {
-  const std::optional<JsonNode> section = document.known(std::string(quantity.section));
-  if (!section) return {};
-  const std::string key(quantity.key);
-  const std::optional<JsonNode> found = section->known(key);
-  if (found) return found->is_number() ? Estimate{found->number(), {}, {}, {}} : found->estimate();
-  const auto of_coefficient = section->known("coefficient");
-  if (!of_coefficient || !key.ends_with("_N")) return {};
-  return {of_coefficient->number_at(key.substr(0, key.size() - 2)), {}, {}, {}};
+  return documents::quantity_in(document, quantity).value_or(documents::DocumentQuantity{}).estimate;
 }
 
-/// "Not determined: natural frequency w_n, damping ratio zeta: the slip has 4.1 samples."
 std::string terms_text(const JsonNode& document) {
   std::string terms;
   for (const JsonNode& term : document.elements("model", "terms")) {
@@ -398,8 +378,7 @@ std::string headline_of(const JsonNode& document, const Conditions& conditions) 
   if (file.size() > kLongestName) file = std::filesystem::path(file).filename().string();
   std::string text =
       fmt::format("{}: {}", file.empty() ? "recording" : printable(file), words_for_motion(motion_of(document)));
-  const std::optional<JsonNode> quoted = document.known("frequency");
-  const Estimate frequency = quoted ? quoted->estimate("_Hz") : Estimate{};
+  const Estimate frequency = estimate_of(document, kFrequency);
   if (frequency.value) {
     const EstimateRow row = estimate_row(frequency, std::string("Hz"));
     text += fmt::format(" at {} Hz{}", row.value, row.interval.empty() ? "" : " " + row.interval);
@@ -461,7 +440,7 @@ std::string summary_of_sweep(SummaryInput input, const std::vector<JsonNode>& re
 }
 
 std::string summary_of(const JsonNode& document, const SummaryHints& hints) {
-  SummaryInput input{document, {}, parameters_of(document), warnings_of(document)};
+  SummaryInput input{document, {}, parameters_of(document), documents::warnings_in(document)};
   if (!document.has("recordings")) {
     input.conditions = conditions_of(document.member("recording"));
     input.zero_is_known = input.conditions.zero_force_N.has_value();

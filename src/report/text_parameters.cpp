@@ -54,13 +54,6 @@ std::string critical_speed_text(const Estimate& speed_m_per_s, const Estimate& l
   return text + fmt::format(", lambda there {}\n", estimate_text(lambda, display_unit("", {})));
 }
 
-StatusAndNote critical_speed_status(const Analysis& analysis) {
-  const bool has_fit = analysis.fit && analysis.motion != MotionClass::SteadySliding;
-  const Parameter* const zeta = has_fit ? analysis.fit->find(ParameterId::DampingRatio) : nullptr;
-  if (zeta == nullptr) return {"derived", analysis.derived.critical_speed_m_per_s.note};
-  return {std::string(name_of(zeta->status)), zeta->estimate.note};
-}
-
 std::string off_by(const Estimate& predicted, const Estimate& measured) {
   if (!predicted.value || !measured.value) return "-";
   constexpr double kWorthAPercentage = 10.0;
@@ -74,16 +67,20 @@ std::string conditions_text(const std::vector<std::string>& conditional_on) {
   return wrapped_text("  assumed: ", printable(fmt::format("{}", fmt::join(conditional_on, "; "))));
 }
 
+EstimateRow parameter_row(const Parameter& parameter) {
+  EstimateRow row = estimate_row(parameter.estimate, std::string(info(parameter.id).unit));
+  const bool has_value =
+      parameter.status != ParameterStatus::Bounded && parameter.status != ParameterStatus::Unidentified;
+  if (!has_value) row.value = "-";
+  return row;
+}
+
 std::vector<ShownParameter> shown_parameters(const FitResult& fit) {
   std::vector<ShownParameter> shown;
   for (const Parameter& parameter : fit.parameters) {
-    const ParameterInfo& name = info(parameter.id);
-    EstimateRow row = estimate_row(parameter.estimate, std::string(name.unit));
-    const bool has_value =
-        parameter.status != ParameterStatus::Bounded && parameter.status != ParameterStatus::Unidentified;
-    if (!has_value) row.value = "-";
+    EstimateRow row = parameter_row(parameter);
     if (row.interval.empty()) row.interval = "-";
-    shown.push_back({printable(name.words), row, parameter.status, printable(parameter.estimate.note)});
+    shown.push_back({printable(info(parameter.id).words), row, parameter.status, printable(parameter.estimate.note)});
   }
   return shown;
 }

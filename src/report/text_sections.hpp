@@ -19,18 +19,15 @@ std::string parameters_text(const FitResult& fit, ForceQuantity quantity, const 
 std::string conditions_text(const std::vector<std::string>& conditional_on);
 /// "  critical speed: 20 mm/s [19, 21], lambda there 0.69 [0.67, 0.71]", or why it is not known.
 std::string critical_speed_text(const Estimate& speed_m_per_s, const Estimate& lambda, const std::string& given_unit);
-/// The status of the critical speed with its note: that of the damping ratio, on which it depends.
-struct StatusAndNote {
-  std::string status, note;
-};
-StatusAndNote critical_speed_status(const Analysis& analysis);
 /// "-1.0 %"; "-" where one is not known.
 std::string off_by(const Estimate& predicted, const Estimate& measured);
 std::string warnings_text(const Warnings& warnings);
 /// Returns the assumptions made while reading a file.
 std::string assumed_text(const std::vector<std::string>& assumed);
 
-/// A parameter as people see it: a bounded one's middle is no estimate, they see the interval alone.
+/// The numbers of a parameter as people see them: a bounded one's middle is no estimate, they see the interval alone.
+EstimateRow parameter_row(const Parameter& parameter);
+
 struct ShownParameter {
   std::string words;
   EstimateRow numbers;

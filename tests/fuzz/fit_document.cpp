@@ -1,4 +1,4 @@
-// Bytes as the FIT.json of slipfit predict and plan: an answer in JSON, or an error of one line.
+// Bytes as the FIT.json of slipfit predict and plan, and as a saved result: an answer, or an error of one line.
 #include <array>
 #include <nlohmann/json.hpp>
 
@@ -6,6 +6,7 @@
 #include "slipfit/report/fit_document.hpp"
 #include "slipfit/report/plan.hpp"
 #include "slipfit/report/prediction.hpp"
+#include "slipfit/report/text.hpp"
 
 namespace {
 
@@ -16,6 +17,11 @@ void plan(const std::string& content, const slipfit::PredictionSource& source) {
   if (!plan) return fuzz::demand_readable(plan.error());
   fuzz::demand(nlohmann::json::accept(slipfit::to_json(plan.value(), source)), "a plan is JSON");
   (void)slipfit::to_text(plan.value(), source);
+}
+
+void summarise(const std::string& content) {
+  const auto summary = slipfit::summary_of_document(content, "fit.json");
+  if (!summary) fuzz::demand_readable(summary.error());
 }
 
 void predict_and_plan(const std::string& content) {
@@ -33,6 +39,8 @@ void predict_and_plan(const std::string& content) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  predict_and_plan({reinterpret_cast<const char*>(data), size});
+  const std::string content(reinterpret_cast<const char*>(data), size);
+  summarise(content);
+  predict_and_plan(content);
   return 0;
 }

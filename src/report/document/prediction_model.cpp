@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "report/document/check_document.hpp"
+#include "report/document/document_values.hpp"
 #include "slipfit/core/printable.hpp"
 #include "slipfit/predict/single_speed.hpp"
 
@@ -189,20 +190,9 @@ ObservedEnd observed_end(const JsonNode& document) {
   return {checked_error(ends->element(0)), checked_error(ends->element(1))};
 }
 
-Warnings warnings(const JsonNode& document) {
-  Warnings list;
-  const auto nodes = document.known("warnings");
-  for (std::size_t i = 0; nodes && i < nodes->array_size(); ++i) {
-    const JsonNode warning = nodes->element(i);
-    list.push_back({warning.member("code").text(), warning.member("message").text()});
-  }
-  return list;
-}
-
 std::vector<std::string> conditions(const JsonNode& document) {
   std::vector<std::string> texts;
-  const auto list = document.known("model", "conditional_on");
-  for (std::size_t i = 0; list && i < list->array_size(); ++i) texts.push_back(list->element(i).text());
+  for (const JsonNode& condition : document.elements("model", "conditional_on")) texts.push_back(condition.text());
   return texts;
 }
 
@@ -233,7 +223,7 @@ FitDocument fit_document_from(const JsonNode& document, const std::string& name)
   estimate.normal_force_N = normal_force_N(document);
   result.model.observed_end = observed_end(document);
   result.conditional_on = conditions(document);
-  result.warnings = warnings(document);
+  result.warnings = warnings_in(document);
   return result;
 }
 

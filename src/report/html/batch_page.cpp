@@ -148,24 +148,10 @@ constexpr double kSparkHeight = 26.0;
 
 std::vector<std::string> codes_in(const JsonNode& document) {
   std::vector<std::string> codes;
-  const std::optional<JsonNode> warnings = document.known("warnings");
-  for (std::size_t i = 0; warnings && i < warnings->array_size(); ++i) {
-    std::string code = warnings->element(i).text_at("code");
-    if (std::ranges::find(codes, code) == codes.end()) codes.push_back(std::move(code));
+  for (const Warning& warning : documents::warnings_in(document)) {
+    if (std::ranges::find(codes, warning.code) == codes.end()) codes.push_back(warning.code);
   }
   return codes;
-}
-
-/// Returns a quantity of a document, or nothing if it is absent; a bounded parameter keeps only its interval.
-BatchPageQuantity quantity_in(const JsonNode& document, const BatchColumn& column) {
-  const bool is_frequency = column.key == kFrequency.key;  // a section of its own
-  const std::string section(quantity_with_key(column.key).section);
-  const std::optional<JsonNode> node =
-      is_frequency ? document.known(section) : document.known(section, std::string(column.key));
-  if (!node) return {};
-  BatchPageQuantity quantity{node->estimate(is_frequency ? "_Hz" : ""), node->text_at("status")};
-  if (quantity.status == "bounded" || quantity.status == "unidentified") quantity.estimate.value.reset();
-  return quantity;
 }
 
 BatchPageRow row_from(const JsonNode& document) {
@@ -173,7 +159,9 @@ BatchPageRow row_from(const JsonNode& document) {
   row.id = document.member("id").text();
   row.status = document.member("status").text();
   if (const auto recording = document.known("recording")) row.speed_m_per_s = recording->number_at("speed_m_per_s");
-  for (std::size_t i = 0; i < kColumns.size(); ++i) row.quantities[i] = quantity_in(document, kColumns[i]);
+  for (std::size_t i = 0; i < kColumns.size(); ++i)
+    row.quantities[i] =
+        documents::quantity_in(document, quantity_with_key(kColumns[i].key)).value_or(documents::DocumentQuantity{});
   row.warnings = codes_in(document);
   return row;
 }

@@ -31,14 +31,11 @@ std::string key_number(std::string_view words, const EstimateRow& row, std::stri
                      mark);
 }
 
-/// The headline number of a fitted parameter; a bounded one has an interval without a value.
+/// The headline number of a fitted parameter.
 std::string key_parameter(const FitResult& fit, ParameterId id) {
-  const ParameterInfo& known = info(id);
   const Parameter* const parameter = fit.find(id);
-  if (parameter == nullptr) return key_number(known.words, estimate_row(Estimate{}, std::string()), {});
-  Estimate estimate = parameter->estimate;
-  if (parameter->status == ParameterStatus::Bounded) estimate.value.reset();
-  return key_number(known.words, estimate_row(estimate, std::string(known.unit)), name_of(parameter->status));
+  if (parameter == nullptr) return key_number(info(id).words, estimate_row(Estimate{}, std::string()), {});
+  return key_number(info(id).words, parameter_row(*parameter), name_of(parameter->status));
 }
 
 /// The critical speed; where it is not known, stick-slip at the speed of the recording is a lower bound.
@@ -46,8 +43,9 @@ std::string key_critical_speed(const Source& source) {
   const Conditions& conditions = source.recording.conditions();
   const Quantity& quantity = quantity_with_key("critical_speed_m_per_s");
   const bool sticks = source.analysis.motion == MotionClass::StickSlip;
+  const Parameter* const zeta = source.analysis.fit->find(ParameterId::DampingRatio);  // on which it depends
   return key_number(quantity.words, estimate_row(quantity, source.analysis.derived.critical_speed_m_per_s, conditions),
-                    critical_speed_status(source.analysis).status,
+                    zeta != nullptr ? name_of(zeta->status) : "derived",
                     sticks ? "above " + speed_text(conditions) : "not known");
 }
 
