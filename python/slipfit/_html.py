@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import math
 from html import escape
 from typing import TYPE_CHECKING, Any, Iterable, List, Sequence, Tuple, Union
 
 import numpy as np
 
+from . import _slipfit
 
 if TYPE_CHECKING:
     from ._batch import BatchResult
@@ -62,29 +62,9 @@ def chart(recording: "Recording", fit: "Fit") -> str:
     return _picture(recording, lines, "; fit in red" if is_fitted else "")
 
 
-def _digits(one: "Estimate") -> int:
-    """Significant digits that show two of the interval's width."""
-    if one.ci95 is None or not one.ci95[1] > one.ci95[0]:
-        return 4
-    largest = max(abs(one.ci95[0]), abs(one.ci95[1]))
-    return min(12, max(3, 2 + math.ceil(math.log10(largest / (one.ci95[1] - one.ci95[0])))))
-
-
-def _shown(number: float, digits: int) -> str:
-    return f"{number:#.{digits}g}".rstrip(".")
-
-
-def _number(one: "Estimate") -> str:
-    return "–" if one.value is None else _shown(one.value, _digits(one))
-
-
-def _interval(one: "Estimate") -> str:
-    return "–" if one.ci95 is None else f"[{_shown(one.ci95[0], _digits(one))}, {_shown(one.ci95[1], _digits(one))}]"
-
-
 def _row(one: "Estimate") -> str:
     note = f' title="{escape(one.note)}"' if one.note else ""
-    cells = (_number(one), one.unit, _interval(one), one.status or "")
+    cells = (*_slipfit.estimate_row(one.value, one.se, one.ci95, one.unit), one.status or "")
     return f"<tr{note}><th style='text-align:left'>{escape(one.words)}</th>" + "".join(f"<td>{escape(c)}</td>" for c in cells) + "</tr>"
 
 

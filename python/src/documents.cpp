@@ -1,6 +1,7 @@
 #include <memory>
 #include <numbers>
 #include <optional>
+#include <tuple>
 #include <variant>
 
 #include "results.hpp"
@@ -11,6 +12,7 @@
 #include "slipfit/model/simulation.hpp"
 #include "slipfit/predict/speeds.hpp"
 #include "slipfit/report/comparison.hpp"
+#include "slipfit/report/estimate_row.hpp"
 #include "slipfit/report/fit_document.hpp"
 #include "slipfit/report/info.hpp"
 #include "slipfit/report/plan.hpp"
@@ -202,6 +204,15 @@ std::string summary(const std::string& content, const std::string& name) {
       {".details()", "all results: .details() or .to_dict()      page with charts: .report(\"FILE.html\")"}));
 }
 
+/// Value, unit and 95 % interval as texts, rounded as everywhere.
+std::tuple<std::string, std::string, std::string> rounded_row(std::optional<double> value, std::optional<double> se,
+                                                              const std::optional<std::pair<double, double>>& ci95,
+                                                              const std::string& unit) {
+  const auto interval = ci95 ? std::optional(Interval{ci95->first, ci95->second}) : std::nullopt;
+  const EstimateRow row = estimate_row({value, se, interval, {}}, unit);
+  return {row.value, row.unit, row.interval};
+}
+
 ForceView view_called(const std::string& name) {
   if (name == "spring") return ForceView::Spring;
   if (name == "transmitted") return ForceView::Transmitted;
@@ -232,6 +243,7 @@ void add_documents(py::module_& module) {
   module.def("predict", predict, py::arg("document"), py::arg("name"), py::arg("speeds"), py::arg("normal_force_N"));
   module.def("predict_stated", predict_stated, py::arg("slider"), py::arg("friction"), py::arg("speeds"));
   module.def("check_document", check_document, py::arg("document"), py::arg("name"));
+  module.def("estimate_row", rounded_row, py::arg("value"), py::arg("se"), py::arg("ci95"), py::arg("unit"));
   module.def("summary", summary, py::arg("document"), py::arg("name"));
   module.def("figures", figures);
   module.def("info", info, py::arg("file"), py::arg("cells"));

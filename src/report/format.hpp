@@ -7,6 +7,7 @@
 
 #include "slipfit/core/estimate.hpp"
 #include "slipfit/core/recording.hpp"
+#include "slipfit/report/estimate_row.hpp"
 
 namespace slipfit {
 
@@ -34,15 +35,7 @@ DisplayUnit speed_unit(const std::string& given, std::optional<double> typical_m
 
 Estimate scaled(const Estimate& estimate, double factor);
 
-/// An estimate as people write it: rounded to two significant digits of its standard error, the interval alike.
-struct EstimateRow {
-  std::string value;     ///< "-" where it is not known
-  std::string interval;  ///< "[low, high]"; empty where it is not known
-  std::string unit;
-};
 EstimateRow estimate_row(const Estimate& SI, const DisplayUnit& unit);
-/// Returns the row of an estimate in a suitable unit.
-EstimateRow estimate_row(const Estimate& estimate, const std::string& SI_unit);
 
 /// "49.3 ms [47.1, 51.7]"; "-" where it is not known.
 std::string estimate_text(const Estimate& estimate, const DisplayUnit& unit);
