@@ -62,6 +62,9 @@ inline constexpr double kBlurringHum = 0.5;
 /// samples]
 inline constexpr double kResolvedSamples = 1.5;
 
+/// Standard error of zeta, below which scattering cycles determine it even then. [1; calibrated: as kResolvedSamples]
+inline constexpr double kPinningDamping = 0.01;
+
 /// Standard error of zeta, from which on it is not reported. [1; convention: zeta of a slip that shows itself is below
 /// 0.5]
 inline constexpr double kInformativeDamping = 0.1;

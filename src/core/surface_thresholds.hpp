@@ -55,6 +55,15 @@ inline constexpr double kSameScale = 0.6;
 /// halves of a track, of track and slips. [1; convention]
 inline constexpr double kSameSpacing = 0.15;
 
+/// Ratio of two spacings, above which the finer may be a pattern of its own. [1; convention]
+inline constexpr double kFinerPattern = 2.5;
+
+/// Largest ratio that may be an overtone: edges of the coarser pattern. [1; convention]
+inline constexpr double kHighestOvertone = 12.5;
+
+/// Distance of the ratio from a whole number, below which it is one. [1; convention]
+inline constexpr double kOvertoneApart = 0.15;
+
 /// Scatter of the distances over their mean, from which on a pattern is called irregular. [1; convention]
 inline constexpr double kIrregular = 0.2;
 

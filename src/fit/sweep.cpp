@@ -164,7 +164,8 @@ class Assembler {
     if (!(averaging_ > thresholds::kNegligible) || !data_.rounding_s2) return;
     findings.slip_doubt = "the slips are rounded as by sensor averaging over a time that the data do not determine";
     findings.warnings.push_back(
-        {"samples_averaged", findings.slip_doubt + ": state it with --sensor-average if it is known"});
+        {"samples_averaged",
+         findings.slip_doubt + ": state it with --sensor-average, or a filter with --sensor-filter, if it is known"});
   }
 
   /// Returns the mean response of the normal force in the recordings that measured one.

@@ -207,6 +207,13 @@ std::optional<Pattern> by_comb(std::span<const double> heights, const Combs& com
   return best;
 }
 
+/// Edges of a coarser pattern have short waves of their own: a whole number of them for each of its ridges.
+bool is_overtone(const Pattern& fine, const Pattern& coarse) {
+  const double ratio = mean_distance(coarse) / mean_distance(fine);
+  return ratio < thresholds::kFinerPattern ||
+         (ratio < thresholds::kHighestOvertone && std::abs(ratio - std::round(ratio)) < thresholds::kOvertoneApart);
+}
+
 }  // namespace
 
 double mean_distance(const Pattern& pattern) {
@@ -219,9 +226,10 @@ std::vector<Pattern> find_patterns(std::span<const double> heights) {
   std::vector<Pattern> patterns;
   for (const Pattern& seen : scan(heights)) {
     Pattern pattern = measured(heights, combs, seen);
-    if (patterns.empty() || !patterns.front().spacing) {
+    const bool is_edge = !patterns.empty() && is_overtone(seen, patterns.front());
+    if (patterns.empty() || (!is_edge && !patterns.front().spacing)) {
       patterns = {std::move(pattern)};
-    } else if (pattern.spacing) {
+    } else if (!is_edge && pattern.spacing) {
       patterns.push_back(std::move(pattern));
     }
   }

@@ -131,7 +131,7 @@ AveragingFindings averaging_of(const Recording& recording, const DampedFit& fit,
     result.warnings.push_back(
         {"samples_averaged",
          result.doubt + " or by friction that changes during the slip; intervals include this. State the averaging "
-                        "time with --sensor-average if it is known"});
+                        "time with --sensor-average or a filter with --sensor-filter if it is known"});
   }
   return result;
 }

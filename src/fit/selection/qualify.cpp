@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <numbers>
 #include <string>
 #include <utility>
@@ -22,8 +23,8 @@ FitResult without_parameters(FitResult fit) {
   fit.correlation.reset();
   fit.estimate.reset();
   fit.level_trend = {};
-  const auto is_trend = [](const Warning& warning) { return warning.code == "level_trend"; };
-  fit.warnings.erase(std::remove_if(fit.warnings.begin(), fit.warnings.end(), is_trend), fit.warnings.end());
+  constexpr std::array kOfParameters{"level_trend", "samples_averaged", "part_of_cycles_fitted"};
+  std::erase_if(fit.warnings, [&](const Warning& warning) { return std::ranges::count(kOfParameters, warning.code); });
   for (Warning& warning : fit.warnings) {  // how far off it is says nothing where it is another motion
     if (warning.code != "model_misfit") continue;
     warning.message = "the model does not describe the slips: no parameter is determined";

@@ -133,7 +133,9 @@ Resolution resolution_of(const Recording& recording, const TierFits& fits) {
   Resolution result;
   result.samples_per_slip = median_slip_s(blocks) / recording.sample_interval_s();
   const bool held = fits.damping_held();
-  if (result.samples_per_slip < thresholds::kResolvedSamples && !held) {
+  const bool scatter_is_informative =
+      !fits.damped.refused_damping && damping_error(fits.damped) < thresholds::kPinningDamping;
+  if (result.samples_per_slip < thresholds::kResolvedSamples && !held && !scatter_is_informative) {
     result.reason = too_few_samples(result.samples_per_slip, recording.sample_interval_s());
     return result;
   }
