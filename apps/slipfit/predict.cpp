@@ -29,7 +29,7 @@ struct PredictArguments {
 void add_options(CLI::App& command, PredictArguments& arguments) {
   command.add_option("FIT.json", arguments.file, "Document written by slipfit fit --json; or give the model options");
   command.add_option("--speeds", arguments.speeds,
-                     "A:B:N, N speeds from A to B, logarithmically spaced: 1mm/s:1m/s:50; or a list: 5mm/s,10mm/s");
+                     "A:B:N, N speeds from A to B, logarithmically spaced: 1mm/s:1m/s:50; or a list: 5,10 mm/s");
   add_quantity(
       command, "--normal-force", arguments.normal_force_N, slipfit::Dimension::Force, Limits::AboveZero,
       "Normal force of the prediction: 2.3, 2.3N; needs a fit whose recordings state theirs (default: their mean)");

@@ -80,9 +80,14 @@ bool is_change(const Split& split) {
          std::abs(split.after / split.before - 1.0) > thresholds::kNotableChange;
 }
 
-/// Far off the usual interval by their typical deviation.
-bool is_broken(double deviation, double usual, double typical) {
-  return deviation > std::max(thresholds::kFarInterval * usual, thresholds::kFarOverTypical * typical);
+/// Far off the usual interval by their typical deviation; nearer only between two usual ones: a rhythm may settle.
+bool is_broken(const std::vector<double>& deviations, std::size_t i, double usual, double typical) {
+  const auto is_beyond = [&](std::size_t of, double share) {
+    return deviations[of] > std::max(share * usual, thresholds::kFarOverTypical * typical);
+  };
+  if (is_beyond(i, thresholds::kFarInterval)) return true;
+  const bool is_inside = i > 0 && i + 1 < deviations.size();
+  return is_inside && is_beyond(i, thresholds::kOddInterval) && !is_beyond(i - 1, 0.0) && !is_beyond(i + 1, 0.0);
 }
 
 }  // namespace
@@ -108,7 +113,7 @@ Intervals intervals_of(const Recording& recording, const Segmentation& segmentat
   if (intervals.seconds.size() < 8 || deviation > thresholds::kRegularRest * usual) return intervals;
   std::vector<double> unbroken;
   for (std::size_t i = 0; i < deviations.size(); ++i) {
-    if (!is_broken(deviations[i], usual, deviation)) unbroken.push_back(intervals.seconds[i]);
+    if (!is_broken(deviations, i, usual, deviation)) unbroken.push_back(intervals.seconds[i]);
   }
   const std::size_t broken = deviations.size() - unbroken.size();
   return {std::move(unbroken), broken};

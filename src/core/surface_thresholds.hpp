@@ -64,6 +64,10 @@ inline constexpr double kHighestOvertone = 12.5;
 /// Distance of the ratio from a whole number, below which it is one. [1; convention]
 inline constexpr double kOvertoneApart = 0.15;
 
+/// Height of finer ridges over that of coarser ones that may be every second or third of them, above which the finer
+/// are the pattern. [1; convention]
+inline constexpr double kHigherRidges = 1.5;
+
 /// Scatter of the distances over their mean, from which on a pattern is called irregular. [1; convention]
 inline constexpr double kIrregular = 0.2;
 

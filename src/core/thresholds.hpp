@@ -134,6 +134,9 @@ inline constexpr double kRegularRest = 0.03;
 /// Distance from the median of a broken interval among regular ones, over the median. [1; convention]
 inline constexpr double kFarInterval = 0.12;
 
+/// The same of a broken interval between two usual ones. [1; convention]
+inline constexpr double kOddInterval = 0.04;
+
 /// Distance of either over the typical distance of the intervals, at least. [1; convention]
 inline constexpr double kFarOverTypical = 8.0;
 

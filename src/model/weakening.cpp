@@ -60,11 +60,15 @@ double WeakeningSlip::time_to_weaken() const {
     high = std::min(longest, 2.0 * high);
     reached = slide_at(g, zeta, high).x;
   }
-  const auto remaining = [&](double tau) {
+  // The logarithm of x is straight where x grows fast.
+  const auto excess = [&](double tau) {
     const Slide<double> slide = slide_at(g, zeta, tau);
-    return std::tuple(slide.x - distance_.a, slide.v, slide.a);
+    const double growth = slide.v / slide.x;
+    return std::tuple(std::log(slide.x / distance_.a), growth, slide.a / slide.x - growth * growth);
   };
-  return root_near(remaining, std::max(low, high * std::cbrt(distance_.a / reached)), low, high);
+  constexpr double kFar = 10.0;
+  const bool is_far = reached > kFar * distance_.a;
+  return root_near(excess, is_far ? high : std::max(low, high * std::cbrt(distance_.a / reached)), low, high);
 }
 
 WeakeningSlip::State WeakeningSlip::weakening_at(const Jet& tau) const {

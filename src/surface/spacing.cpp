@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "core/student.hpp"
 #include "core/surface_thresholds.hpp"
@@ -207,6 +208,11 @@ std::optional<Pattern> by_comb(std::span<const double> heights, const Combs& com
   return best;
 }
 
+double mean_height(const Pattern& pattern) {
+  const std::vector<double>& heights = pattern.ridges.heights;
+  return std::accumulate(heights.begin(), heights.end(), 0.0) / std::max(1.0, static_cast<double>(heights.size()));
+}
+
 /// Edges of a coarser pattern have short waves of their own: a whole number of them for each of its ridges.
 bool is_overtone(const Pattern& fine, const Pattern& coarse) {
   const double ratio = mean_distance(coarse) / mean_distance(fine);
@@ -226,8 +232,13 @@ std::vector<Pattern> find_patterns(std::span<const double> heights) {
   std::vector<Pattern> patterns;
   for (const Pattern& seen : scan(heights)) {
     Pattern pattern = measured(heights, combs, seen);
+    // Every third of regular ridges may be significant by chance, and even ridges beat with even samples; but not as
+    // high as the ridges themselves.
+    const bool is_surer = !patterns.empty() && pattern.spacing &&
+                          pattern.log_chance < 2.0 * patterns.front().log_chance &&
+                          mean_height(pattern) > thresholds::kHigherRidges * mean_height(patterns.front());
     const bool is_edge = !patterns.empty() && is_overtone(seen, patterns.front());
-    if (patterns.empty() || (!is_edge && !patterns.front().spacing)) {
+    if (patterns.empty() || is_surer || (!is_edge && !patterns.front().spacing)) {
       patterns = {std::move(pattern)};
     } else if (!is_edge && pattern.spacing) {
       patterns.push_back(std::move(pattern));

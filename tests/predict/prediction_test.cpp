@@ -4,9 +4,11 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
+#include <vector>
 
 #include "slipfit/predict/derived.hpp"
 #include "slipfit/predict/single_speed.hpp"
+#include "slipfit/predict/speeds.hpp"
 
 using namespace slipfit;
 
@@ -226,6 +228,21 @@ TEST_CASE("where the damping cannot be told from 0 the doubt begins where the ma
   CHECK(prediction.rows[0].note.empty());
   CHECK(prediction.rows[1].period_s.ci95);
   CHECK_FALSE(prediction.rows[1].note.empty());
+}
+
+TEST_CASE("a unit after the last speed of a list or range holds for all") {
+  const auto list = parse_speeds("1,2.5,5 mm/s");
+  REQUIRE(list);
+  CHECK(list.value().speeds_m_per_s == std::vector{0.001, 0.0025, 0.005});
+  CHECK(list.value().unit == "mm/s");
+  const auto range = parse_speeds("1:100mm/s:3");
+  REQUIRE(range);
+  CHECK(range.value().speeds_m_per_s[0] == Approx(0.001));
+  CHECK(range.value().speeds_m_per_s[1] == Approx(0.01));
+  CHECK(range.value().speeds_m_per_s[2] == Approx(0.1));
+  CHECK(parse_speeds("1mm/s,1m/s").value().speeds_m_per_s == std::vector{0.001, 1.0});
+  CHECK(parse_speeds("0.1,0.2").value().speeds_m_per_s == std::vector{0.1, 0.2});
+  CHECK(parse_speeds("1 mm/s,2").error().code == "bad_speeds");
 }
 
 TEST_CASE("where zeta may be 0 the end of stick-slip is told as a bound, by the interval of zeta") {

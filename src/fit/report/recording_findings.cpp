@@ -129,9 +129,9 @@ AveragingFindings averaging_of(const Recording& recording, const DampedFit& fit,
     const double average_s = std::sqrt(12.0 * seen->variance_s2);
     result.doubt = fmt::format("the slips are rounded as by sensor averaging over {:.2g} ms", 1e3 * average_s);
     result.warnings.push_back(
-        {"samples_averaged",
-         result.doubt + " or by friction that changes during the slip; intervals include this. State the averaging "
-                        "time with --sensor-average or a filter with --sensor-filter if it is known"});
+        {"samples_averaged", result.doubt +
+                                 " or by friction that changes during the slip; intervals include this. State what is "
+                                 "known with --sensor-average or --sensor-filter"});
   }
   return result;
 }

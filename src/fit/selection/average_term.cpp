@@ -131,7 +131,8 @@ AverageTrial try_average(const FitInput& input, const DampedFit& plain) {
   });
   if (minima.empty()) return {};
   auto [fit, gain_on_samples, other] = best_fit(input, *fitter, plain, minima);
-  if (!fit || !(fit->average->seconds < median_stick_s(fit->blocks))) return {};
+  // An average over half of the sticks makes any wave of them.
+  if (!fit || !(2.0 * fit->average->seconds < median_stick_s(fit->blocks))) return {};
   const double by_mass = gain_by_mass(input, *fit, plain);
   const bool is_taken = gain_on_samples + by_mass > thresholds::kTierPrice &&
                         (by_mass > thresholds::kTierPrice || rules_out_lag(input, plain, fit->blocks));

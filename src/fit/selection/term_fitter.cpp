@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <utility>
 
@@ -22,6 +21,7 @@
 #include "fit/selection/rise.hpp"
 #include "fit/selection/tiers.hpp"
 #include "fit/selection/wandering.hpp"
+#include "signal/robust.hpp"
 
 namespace slipfit::fit {
 namespace {
@@ -74,11 +74,44 @@ bool explains_more(const Minimum& a, const Minimum& b) {
   return a.sum_of_squares < b.sum_of_squares;
 }
 
-/// Onsets and forces of the cycles by themselves; false where a slip has no solution.
-bool solve_own(BlockFit& blocks) {
+/// The fit with the onsets and forces of the cycles that are far from their samples as they are typical of the others:
+/// the onset before the middle of the slip, and the force over the drop. Empty where no cycle is far.
+std::optional<BlockFit> with_typical_cycles(BlockFit fit, const Segmentation& segmentation) {
+  constexpr double kFar = 4.0;  // times the median sum of squares
+  const std::vector<double> sums = fit.sums_of_squares();
+  const double most = kFar * signal::median(sums);
+  if (std::ranges::none_of(sums, [&](double sum) { return sum > most; })) return std::nullopt;
+  const Scales scales = fit.scales();
+  const auto slip_of = [&](std::size_t i) -> const DetectedSlip& { return segmentation.slips[fit.data(i).slip]; };
+  const auto middle_of = [&](std::size_t i) {
+    return (slip_of(i).middle_s - fit.reference_s(i)) / scales.half_period_s;
+  };
+  std::vector<double> delays;
+  std::vector<double> shares;
+  for (std::size_t i = 0; i < fit.size(); ++i) {
+    delays.push_back(middle_of(i) - fit.parameters.cycles[i][0]);
+    shares.push_back(scales.force * fit.parameters.cycles[i][1] / slip_of(i).drop());
+  }
+  const double delay = signal::median(delays);
+  const double share = signal::median(shares);
+  for (std::size_t i = 0; i < fit.size(); ++i) {
+    if (!(sums[i] > most)) continue;
+    fit.parameters.cycles[i][0] = middle_of(i) - delay;
+    fit.parameters.cycles[i][1] = share * slip_of(i).drop() / scales.force;
+  }
+  return fit;
+}
+
+/// Onsets and forces of the cycles by themselves; false where a slip has no solution. A search that leaves some cycles
+/// far from their samples is repeated from what is typical of the others.
+bool solve_own(BlockFit& blocks, const Segmentation& segmentation) {
   SolveOptions options{{}, false, true, kOwnIterations, kDraftTolerance};
   options.held.fill(true);
-  return std::isfinite(solve(blocks, options));
+  const double sum = solve(blocks, options);
+  if (!std::isfinite(sum)) return false;
+  std::optional<BlockFit> again = with_typical_cycles(blocks, segmentation);
+  if (again && solve(*again, options) < sum) blocks = *std::move(again);
+  return true;
 }
 
 /// The solution from these parameters on. Empty where a slip has none.
@@ -179,7 +212,7 @@ std::optional<Minimum> TermFitter::behind_filter(const BlockFit& from, std::span
     scales.sensor_order = start.order;
     scales.sensor_lag_s = start.lag_s;
     BlockFit blocks = started(BlockFit(few_, scales), from.parameters.values);
-    if (!solve_own(blocks)) continue;
+    if (!solve_own(blocks, input_.segmentation)) continue;
     std::optional<Minimum> settled = roughly_settled(std::move(blocks), held_, kDescentTolerance);
     if (settled && (!best || explains_more(*settled, *best))) best = std::move(settled);
   }
@@ -311,7 +344,7 @@ std::optional<Minimum> TermFitter::drafted(Terms terms, const Start& start) cons
     BlockFit blocks = started(BlockFit(few_, scales_of(terms, std::sqrt(start.share_of_fall * fall_s2_))), near);
     if (rises) blocks.parameters.values(kReloadLength) += std::log(kRiseLengths[length]);
     if (terms.rise) blocks = with_rise_over(start.length_m, input_, plain_.blocks, blocks);
-    if (!solve_own(blocks)) continue;
+    if (!solve_own(blocks, input_.segmentation)) continue;
     double sum = solve(blocks, options);
     for (int i = 0; i < kRiseSteps && rises && std::isfinite(sum); ++i) {
       blocks = with_rise_after(blocks);
@@ -356,7 +389,7 @@ std::optional<Minimum> TermFitter::solved(const Cycles& cycles, const BlockFit& 
   scales.sensor_lag_s = near.sensor().lag_s;
   BlockFit blocks = started(BlockFit(cycles, scales).with_level(near.level(), scales), near.parameters.values);
   blocks.parameters.level = near.parameters.level;
-  if (!solve_own(blocks)) return std::nullopt;
+  if (!solve_own(blocks, input_.segmentation)) return std::nullopt;
   return roughly_settled(std::move(blocks), held_, kRoughTolerance);
 }
 
