@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "fit/problem/solve.hpp"
-#include "fit/problem/solve_options.hpp"
 #include "fit/selection/rise.hpp"
 #include "fit/selection/tiers.hpp"
 
@@ -21,23 +20,17 @@ void carry_over(const BlockFit& from, BlockFit& to) {
   }
 }
 
+double sum_of_squares(const BlockFit& fit) {
+  double sum = 0.0;
+  for (const double of_cycle : fit.sums_of_squares()) sum += of_cycle;
+  return sum;
+}
+
 std::size_t residuals_in(const BlockFit& fit) {
   std::size_t count = 0;
   for (std::size_t i = 0; i < fit.size(); ++i) count += fit.data(i).residuals();
   return count;
 }
-
-namespace {
-
-/// Returns the sum of squares that the solver finds the least of.
-double robust_sum(const BlockFit& fit) {
-  const std::vector<double> sums = fit.sums_of_squares();
-  double sum = 0.0;
-  for (std::size_t i = 0; i < sums.size(); ++i) sum += huber_weight(std::sqrt(sums[i]), fit.data(i).residuals()).sum;
-  return sum;
-}
-
-}  // namespace
 
 bool has_slips(const BlockFit& fit) {
   for (std::size_t i = 0; i < fit.size(); ++i) {
@@ -62,12 +55,11 @@ BlockFit with_free_time(const BlockFit& fit, FreeTime time) {
 
 double gain_on_same_samples(const DampedFit& rich, const DampedFit& poor) {
   BlockFit again = carried_to(rich.blocks.set(), poor.blocks);
-  const double sum = solve(again, {poor.held, rich.continuous, true});
-  if (!std::isfinite(sum)) return 0.0;
+  if (!std::isfinite(solve(again, {poor.held, rich.continuous, true}))) return 0.0;
   // What scatters within the bins of the sticks is in neither sum.
   const double independent =
       effective_samples(rich) * static_cast<double>(residuals_in(rich.blocks)) / rich.uncertainty.samples;
-  return independent * std::log(sum / robust_sum(rich.blocks)) - 2.0;
+  return independent * std::log(sum_of_squares(again) / sum_of_squares(rich.blocks)) - 2.0;
 }
 
 }  // namespace slipfit::fit

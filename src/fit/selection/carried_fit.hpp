@@ -19,6 +19,7 @@ BlockFit carried_to(const std::shared_ptr<const CycleSet>& set, const BlockFit& 
 /// The fit with a time of the sensor as one parameter more.
 BlockFit with_free_time(const BlockFit& fit, FreeTime time);
 
+double sum_of_squares(const BlockFit& fit);
 std::size_t residuals_in(const BlockFit& fit);
 
 /// Returns whether every cycle has a slip. A search that ran to the longest slip distance may end past it.

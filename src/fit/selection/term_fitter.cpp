@@ -71,7 +71,7 @@ double half_width_of(const BlockFit& plain, double average_s) {
 }
 
 bool explains_more(const Minimum& a, const Minimum& b) {
-  return a.sum_of_squares < b.sum_of_squares;
+  return a.minimised < b.minimised;
 }
 
 /// The fit with the onsets and forces of the cycles that are far from their samples as they are typical of the others:
@@ -350,7 +350,7 @@ std::optional<Minimum> TermFitter::drafted(Terms terms, const Start& start) cons
       blocks = with_rise_after(blocks);
       sum = solve(blocks, options);
     }
-    const bool is_better = std::isfinite(sum) && fit::rises(blocks) && (!best || sum < best->sum_of_squares);
+    const bool is_better = std::isfinite(sum) && fit::rises(blocks) && (!best || sum < best->minimised);
     if (is_better) best = Minimum{std::move(blocks), sum};
   }
   return best;

@@ -4,9 +4,11 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/fit_thresholds.hpp"
+#include "fit/selection/carried_fit.hpp"
 #include "fit/selection/fit_input.hpp"
 #include "fit/selection/solution.hpp"
 
@@ -28,11 +30,15 @@ struct FilterStart {
   double lag_s = 0.0;  ///< its delay (docs/model.md section 7)
 };
 
-/// A minimum of the sum of squares of some of the cycles. Cycles far worse than the others count linearly, as in the
-/// solver (SolveOptions::robust).
+/// A fit to some of the cycles at a minimum of what the solver minimises, the sum of squares in which cycles far worse
+/// than the others count linearly (SolveOptions::robust).
 struct Minimum {
+  Minimum(BlockFit fit, double sum)
+      : blocks(std::move(fit)), minimised(sum), sum_of_squares(fit::sum_of_squares(blocks)) {}
+
   BlockFit blocks;
-  double sum_of_squares = 0.0;
+  double minimised;       ///< says which end of a search is the better one
+  double sum_of_squares;  ///< without weights, from which likelihoods follow
 };
 
 /// The minima of a fit with more terms.

@@ -77,14 +77,14 @@ bool promises(const TermFitter& fitter, const Minimum& minimum, const DampedFit&
 }
 
 /// The fit of all cycles with friction that weakens and no average but a stated one. `missed`: stacked residual of the
-/// Coulomb fit; empty: the user asks for this law. Empty where no start converges or the law does not promise to be
-/// taken.
+/// Coulomb fit. Empty where no start converges, or the law does not promise to be taken and the user does not ask for
+/// it.
 std::optional<DampedFit> fit_weakening(const FitInput& input, const TermFitter& fitter, const DampedFit& coulomb,
-                                       std::optional<double> missed) {
-  const Minima minima = fitter.minima({.weakening = true}, !missed);
+                                       double missed, bool is_asked) {
+  const Minima minima = fitter.minima({.weakening = true}, is_asked);
   if (minima.found.empty()) return std::nullopt;
   const Minimum& best = minima.found.front();
-  if (missed && !promises(fitter, best, coulomb, *missed)) return std::nullopt;
+  if (!is_asked && !promises(fitter, best, coulomb, missed)) return std::nullopt;
   std::optional<DampedFit> fit = fitter.fit(best.blocks);
   if (fit && !input.recording.conditions().sensor_average_s) {
     fit->rounding = estimate_smoothing(fit->blocks, fit->held, input.recording.sample_interval_s());
@@ -231,8 +231,7 @@ WeakeningTrial try_weakening(const FitInput& input, const DampedFit& coulomb, st
   if (!trial.candidate.reason.empty()) return trial;
   const std::optional<TermFitter> fitter = TermFitter::create(input, coulomb);
   const double missed = stacked_residual(coulomb.blocks, coulomb.blocks).size;
-  const std::optional<double> asked = forced == Tier::Weakening ? std::nullopt : std::optional(missed);
-  if (fitter) trial.fit = fit_weakening(input, *fitter, coulomb, asked);
+  if (fitter) trial.fit = fit_weakening(input, *fitter, coulomb, missed, forced == Tier::Weakening);
   if (trial.fit) {
     const double effective = effective_samples(*trial.fit);
     trial.candidate = candidate_of(*trial.fit, Tier::Weakening, 4, effective);
