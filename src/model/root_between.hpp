@@ -3,6 +3,7 @@
 #include <boost/math/tools/roots.hpp>
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cstdint>
+#include <tuple>
 
 namespace slipfit::model {
 
@@ -24,7 +25,11 @@ template <class F>
 double root_near(const F& f, double guess, double low, double high) {
   constexpr int kDigits = 18;  // of the last step, in bits: the error that it leaves is of its third power
   std::uintmax_t evaluations = 60;
-  return boost::math::tools::halley_iterate(f, guess, low, high, kDigits, evaluations);
+  try {
+    return boost::math::tools::halley_iterate(f, guess, low, high, kDigits, evaluations);
+  } catch (const boost::math::evaluation_error&) {  // rounding hides the change of sign
+    return root_between([&](double x) { return std::get<0>(f(x)); }, low, high);
+  }
 }
 
 }  // namespace slipfit::model
