@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstddef>
@@ -36,16 +37,13 @@ Result<double> speed_from(const std::string& text) {
   return Error{"out_of_range", fmt::format("--speeds: '{}' is not above zero", text)};
 }
 
-/// Returns the speeds of a list or the ends of a range, those without a unit in the unit of the last.
-Result<std::vector<std::string>> with_units(std::vector<std::string> speeds) {
+/// Returns the speeds of a list or the ends of a range. A unit that only the last one has is that of all.
+std::vector<std::string> with_units(std::vector<std::string> speeds) {
+  const auto has_unit = [](const std::string& speed) { return !unit_in(speed).empty(); };
+  if (std::ranges::count_if(speeds, has_unit) != 1 || !has_unit(speeds.back())) return speeds;
   const std::string unit(unit_in(speeds.back()));
   for (std::string& speed : speeds) {
-    const bool has_unit = !unit_in(speed).empty();
-    if (has_unit && unit.empty()) {
-      return bad_speeds(
-          fmt::format("'{}' has no unit beside '{}'; a unit after the last holds for all", speeds.back(), speed));
-    }
-    if (!has_unit && !unit.empty()) speed += " " + unit;
+    if (!has_unit(speed)) speed += " " + unit;
   }
   return speeds;
 }
@@ -60,11 +58,10 @@ Result<std::size_t> number_of_speeds(const std::string& text) {
 
 /// N speeds from A to B in equal ratios, both ends exact.
 Result<Speeds> speed_range(const std::vector<std::string>& parts) {
-  const Result<std::vector<std::string>> ends = with_units({parts[0], parts[1]});
-  if (!ends) return ends.error();
-  const Result<double> first = speed_from(ends.value()[0]);
+  const std::vector<std::string> ends = with_units({parts[0], parts[1]});
+  const Result<double> first = speed_from(ends[0]);
   if (!first) return first.error();
-  const Result<double> last = speed_from(ends.value()[1]);
+  const Result<double> last = speed_from(ends[1]);
   if (!last) return last.error();
   const Result<std::size_t> count = number_of_speeds(parts[2]);
   if (!count) return count.error();
@@ -78,7 +75,7 @@ Result<Speeds> speed_range(const std::vector<std::string>& parts) {
     const double root = std::exp(0.5 * share * (std::log(last.value()) - std::log(first.value())));
     speeds[i] = first.value() * root * root;
   }
-  return Speeds{std::move(speeds), std::string(unit_in(ends.value()[0]))};
+  return Speeds{std::move(speeds), std::string(unit_in(ends[0]))};
 }
 
 }  // namespace
@@ -89,10 +86,9 @@ Result<Speeds> parse_speeds(const std::string& text) {
     if (parts.size() != 3) return bad_speeds(fmt::format("bad range '{}', expected A:B:N", text));
     return speed_range(parts);
   }
-  const Result<std::vector<std::string>> parts = with_units(split(text, ','));
-  if (!parts) return parts.error();
-  Speeds speeds{{}, std::string(unit_in(parts.value().front()))};
-  for (const std::string& part : parts.value()) {
+  const std::vector<std::string> parts = with_units(split(text, ','));
+  Speeds speeds{{}, std::string(unit_in(parts.front()))};
+  for (const std::string& part : parts) {
     const Result<double> speed = speed_from(part);
     if (!speed) return speed.error();
     speeds.speeds_m_per_s.push_back(speed.value());

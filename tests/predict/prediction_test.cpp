@@ -230,7 +230,7 @@ TEST_CASE("where the damping cannot be told from 0 the doubt begins where the ma
   CHECK_FALSE(prediction.rows[1].note.empty());
 }
 
-TEST_CASE("a unit after the last speed of a list or range holds for all") {
+TEST_CASE("a unit that only the last speed of a list or range has is that of all") {
   const auto list = parse_speeds("1,2.5,5 mm/s");
   REQUIRE(list);
   CHECK(list.value().speeds_m_per_s == std::vector{0.001, 0.0025, 0.005});
@@ -242,7 +242,8 @@ TEST_CASE("a unit after the last speed of a list or range holds for all") {
   CHECK(range.value().speeds_m_per_s[2] == Approx(0.1));
   CHECK(parse_speeds("1mm/s,1m/s").value().speeds_m_per_s == std::vector{0.001, 1.0});
   CHECK(parse_speeds("0.1,0.2").value().speeds_m_per_s == std::vector{0.1, 0.2});
-  CHECK(parse_speeds("1 mm/s,2").error().code == "bad_speeds");
+  CHECK(parse_speeds("0.5,5mm/s,10 mm/s").value().speeds_m_per_s == std::vector{0.5, 0.005, 0.01});
+  CHECK(parse_speeds("20 mm/s,0.5").value().speeds_m_per_s == std::vector{0.02, 0.5});
 }
 
 TEST_CASE("where zeta may be 0 the end of stick-slip is told as a bound, by the interval of zeta") {
