@@ -27,7 +27,8 @@ double root_near(const F& f, double guess, double low, double high) {
   std::uintmax_t evaluations = 60;
   try {
     return boost::math::tools::halley_iterate(f, guess, low, high, kDigits, evaluations);
-  } catch (const boost::math::evaluation_error&) {  // rounding hides the change of sign
+  } catch (const boost::math::evaluation_error&) {
+    // Rounding may give f the same sign at both ends.
     return root_between([&](double x) { return std::get<0>(f(x)); }, low, high);
   }
 }

@@ -53,12 +53,10 @@ double WeakeningSlip::time_to_weaken() const {
   const double longest = time_to_stop(g, zeta);
   double low = 0.0;
   double high = std::min(longest, std::cbrt(6.0 * distance_.a));  // x = tau^3 / 6 to begin with
-  double reached = slide_at(g, zeta, high).x;
-  while (reached < distance_.a) {
+  while (slide_at(g, zeta, high).x < distance_.a) {
     if (high >= longest) return std::numeric_limits<double>::infinity();
     low = high;
     high = std::min(longest, 2.0 * high);
-    reached = slide_at(g, zeta, high).x;
   }
   // The logarithm of x is straight where x grows fast.
   const auto excess = [&](double tau) {
@@ -66,9 +64,7 @@ double WeakeningSlip::time_to_weaken() const {
     const double growth = slide.v / slide.x;
     return std::tuple(std::log(slide.x / distance_.a), growth, slide.a / slide.x - growth * growth);
   };
-  constexpr double kFar = 10.0;
-  const bool is_far = reached > kFar * distance_.a;
-  return root_near(excess, is_far ? high : std::max(low, high * std::cbrt(distance_.a / reached)), low, high);
+  return root_near(excess, high, low, high);
 }
 
 WeakeningSlip::State WeakeningSlip::weakening_at(const Jet& tau) const {

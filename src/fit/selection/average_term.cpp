@@ -61,7 +61,7 @@ bool rules_out_lag(const FitInput& input, const DampedFit& plain, const BlockFit
   if (!best) return false;
   const std::optional<Minimum> lag =
       fitter->behind_filter(best->blocks, std::array{FilterStart{1, lag_s}, FilterStart{1, longest_lag_s}});
-  return !lag || fitter->gain_on_some(best->sum_of_squares, lag->sum_of_squares) > thresholds::kEvidence;
+  return !lag || fitter->gain_on_some(*best, *lag) > thresholds::kEvidence;
 }
 
 /// Twice the logarithm of how much more likely a stated mass is by `fit` than by `plain`; 0 where it agrees with
@@ -121,13 +121,12 @@ AverageTrial try_average(const FitInput& input, const DampedFit& plain) {
   const std::optional<TermFitter> fitter = TermFitter::create(input, plain);
   if (!fitter) return {};
   std::vector<Minimum> minima = fitter->minima({.average = true}).found;
-  const double without = fitter->plain().sum_of_squares;
+  const Minimum without = fitter->plain();
   std::erase_if(minima, [&](const Minimum& minimum) {
     if (!is_shaped(find_misfit(minimum.blocks, tolerated_misfit(input.quality)))) return true;
-    const double sum = minimum.sum_of_squares;
-    const bool may_pay = fitter->gain_on_all(sum, without) > 0.5 * thresholds::kTierPrice;
+    const bool may_pay = fitter->gain_on_all(minimum, without) > 0.5 * thresholds::kTierPrice;
     return !may_pay &&
-           !(hides_damping(minimum.blocks) && fitter->gain_on_some(sum, without) > -2.0 * thresholds::kNotRuledOut);
+           !(hides_damping(minimum.blocks) && fitter->gain_on_some(minimum, without) > -2.0 * thresholds::kNotRuledOut);
   });
   if (minima.empty()) return {};
   auto [fit, gain_on_samples, other] = best_fit(input, *fitter, plain, minima);

@@ -61,7 +61,7 @@ std::optional<DampedFit> draft_with_rise(const FitInput& input, const AbortPredi
   if (minima.empty() || !promises(minima.front().blocks, *bend)) return plain;
   const Minimum& best = minima.front();
   if (is_at_bound(best.blocks)) {
-    const double gain = fitter->gain_on_all(best.sum_of_squares, fitter->plain().sum_of_squares);
+    const double gain = fitter->gain_on_all(best, fitter->plain());
     if (gain > thresholds::kTierPrice) plain->rivals.push_back(coordinates_of(best.blocks));
     return plain;
   }

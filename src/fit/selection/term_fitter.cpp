@@ -74,14 +74,15 @@ bool explains_more(const Minimum& a, const Minimum& b) {
   return a.minimised < b.minimised;
 }
 
-/// The fit with the onsets and forces of the cycles that are far from their samples as they are typical of the others:
-/// the onset before the middle of the slip, and the force over the drop. Empty where no cycle is far.
-std::optional<BlockFit> with_typical_cycles(BlockFit fit, const Segmentation& segmentation) {
+/// The fit, where some cycles are far from their samples with onsets and forces as they are typical of the others: the
+/// onset before the middle of the slip, and the force over the drop. Empty where no cycle is far.
+std::optional<BlockFit> with_typical_cycles(const BlockFit& fit, const Segmentation& segmentation) {
   constexpr double kFar = 4.0;  // times the median sum of squares
   const std::vector<double> sums = fit.sums_of_squares();
   const double most = kFar * signal::median(sums);
   if (std::ranges::none_of(sums, [&](double sum) { return sum > most; })) return std::nullopt;
-  const Scales scales = fit.scales();
+  BlockFit typical = fit;
+  const Scales& scales = fit.scales();
   const auto slip_of = [&](std::size_t i) -> const DetectedSlip& { return segmentation.slips[fit.data(i).slip]; };
   const auto middle_of = [&](std::size_t i) {
     return (slip_of(i).middle_s - fit.reference_s(i)) / scales.half_period_s;
@@ -96,10 +97,10 @@ std::optional<BlockFit> with_typical_cycles(BlockFit fit, const Segmentation& se
   const double share = signal::median(shares);
   for (std::size_t i = 0; i < fit.size(); ++i) {
     if (!(sums[i] > most)) continue;
-    fit.parameters.cycles[i][0] = middle_of(i) - delay;
-    fit.parameters.cycles[i][1] = share * slip_of(i).drop() / scales.force;
+    typical.parameters.cycles[i][0] = middle_of(i) - delay;
+    typical.parameters.cycles[i][1] = share * slip_of(i).drop() / scales.force;
   }
-  return fit;
+  return typical;
 }
 
 /// Onsets and forces of the cycles by themselves; false where a slip has no solution. A search that leaves some cycles
@@ -177,7 +178,7 @@ Minima TermFitter::minima(Terms terms, bool is_asked) const {
   const auto is_another = [&](const Minimum& draft) {
     const double ratio = draft.blocks.sensor().average_s / drafts.front().blocks.sensor().average_s;
     const bool is_elsewhere = terms.average && std::abs(std::log(ratio)) > kSameAverage;
-    return is_elsewhere && gain_on(*few_, drafts.front().sum_of_squares, draft.sum_of_squares) < kRuledOut;
+    return is_elsewhere && gain_on(*few_, drafts.front(), draft) < kRuledOut;
   };
   Minima minima;
   for (std::size_t i = 0; i < drafts.size(); ++i) {
@@ -219,18 +220,18 @@ std::optional<Minimum> TermFitter::behind_filter(const BlockFit& from, std::span
   return best ? near(best->blocks) : std::nullopt;
 }
 
-double TermFitter::gain_on_some(double better, double other) const {
+double TermFitter::gain_on_some(const Minimum& better, const Minimum& other) const {
   return gain_on(*enough_, better, other);
 }
 
-double TermFitter::gain_on_all(double better, double other) const {
+double TermFitter::gain_on_all(const Minimum& better, const Minimum& other) const {
   return gain_on(*cycles_, better, other);
 }
 
 /// Neither sum contains the scatter within the bins of the sticks.
-double TermFitter::gain_on(const CycleSet& cycles, double better, double other) const {
+double TermFitter::gain_on(const CycleSet& cycles, const Minimum& better, const Minimum& other) const {
   const double independent = effective_samples(plain_) * residuals_of(cycles.cycles()) / plain_.uncertainty.samples;
-  return independent * std::log(other / better);
+  return independent * std::log(sum_of_squares(other.blocks) / sum_of_squares(better.blocks));
 }
 
 DampedFit TermFitter::rival_of(const Minimum& minimum) const {

@@ -4,11 +4,9 @@
 #include <memory>
 #include <optional>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "core/fit_thresholds.hpp"
-#include "fit/selection/carried_fit.hpp"
 #include "fit/selection/fit_input.hpp"
 #include "fit/selection/solution.hpp"
 
@@ -30,15 +28,12 @@ struct FilterStart {
   double lag_s = 0.0;  ///< its delay (docs/model.md section 7)
 };
 
-/// A fit to some of the cycles at a minimum of what the solver minimises, the sum of squares in which cycles far worse
-/// than the others count linearly (SolveOptions::robust).
+/// A fit to some of the cycles where a search for it ended.
 struct Minimum {
-  Minimum(BlockFit fit, double sum)
-      : blocks(std::move(fit)), minimised(sum), sum_of_squares(fit::sum_of_squares(blocks)) {}
-
   BlockFit blocks;
-  double minimised;       ///< says which end of a search is the better one
-  double sum_of_squares;  ///< without weights, from which likelihoods follow
+  /// What the solver minimises: cycles far worse than the others count linearly in it (SolveOptions::robust). It says
+  /// which of two searches found the better end; likelihoods follow from plain sums of squares.
+  double minimised = 0.0;
 };
 
 /// The minima of a fit with more terms.
@@ -70,11 +65,11 @@ class TermFitter {
   /// solution.
   [[nodiscard]] std::optional<Minimum> behind_filter(const BlockFit& from, std::span<const FilterStart> starts) const;
 
-  /// Twice the logarithm of the likelihood ratio of two sums of squares of these cycles, each at its best noise. Above
-  /// 0 where `better` is smaller.
-  [[nodiscard]] double gain_on_some(double better, double other) const;
+  /// Twice the logarithm of the likelihood ratio of two fits of these cycles, each at its best noise. Above 0 where
+  /// `better` explains them better.
+  [[nodiscard]] double gain_on_some(const Minimum& better, const Minimum& other) const;
   /// The same of all cycles, if they show as much in proportion to their residuals.
-  [[nodiscard]] double gain_on_all(double better, double other) const;
+  [[nodiscard]] double gain_on_all(const Minimum& better, const Minimum& other) const;
 
   /// A minimum as a fit that is not ruled out. Its covariance is scaled to that of all cycles.
   [[nodiscard]] DampedFit rival_of(const Minimum& minimum) const;
@@ -104,7 +99,7 @@ class TermFitter {
   [[nodiscard]] BlockFit started(BlockFit blocks, const Coordinates& values) const;
   [[nodiscard]] Scales scales_of(Terms terms, double average_s) const;
   [[nodiscard]] std::vector<Start> starts_of(Terms terms) const;
-  [[nodiscard]] double gain_on(const CycleSet& cycles, double better, double other) const;
+  [[nodiscard]] double gain_on(const CycleSet& cycles, const Minimum& better, const Minimum& other) const;
   [[nodiscard]] std::vector<double> lengths_of_rise() const;
   [[nodiscard]] std::optional<Minimum> drafted(Terms terms, const Start& start) const;
   /// Returns the drafts, of starts that share an average only the best one: the average is what separates minima.

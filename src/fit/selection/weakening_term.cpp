@@ -69,8 +69,7 @@ constexpr double kHopeful = 1.1 * thresholds::kHalvedStack;
 /// it explains them less well, or it cannot halve what the slips of that law miss (`missed`, the stacked residual). In
 /// place of an average it need not explain more.
 bool promises(const TermFitter& fitter, const Minimum& minimum, const DampedFit& coulomb, double missed) {
-  const double sum_of_coulomb = fitter.plain().sum_of_squares;
-  if (fitter.gain_on_some(minimum.sum_of_squares, sum_of_coulomb) < -thresholds::kTierPrice) return false;
+  if (fitter.gain_on_some(minimum, fitter.plain()) < -thresholds::kTierPrice) return false;
   if (coulomb.average) return true;
   const StackedResidual after = stacked_residual(minimum.blocks, coulomb.blocks);
   return after.size * after.size - after.by_chance * after.by_chance < std::pow(kHopeful * missed, 2);
@@ -105,9 +104,8 @@ std::optional<Both> best_of_both(const FitInput& input, const TermFitter& fitter
   const auto [minima, is_complete] = fitter.minima({.average = true, .weakening = true});
   const std::optional<Minimum> single = fitter.near(rival.blocks);
   if (minima.empty() || !single) return std::nullopt;
-  const double sum = single->sum_of_squares;
-  if (fitter.gain_on_all(minima.front().sum_of_squares, sum) < 0.5 * thresholds::kTierPrice) {
-    const double gain = fitter.gain_on_some(minima.front().sum_of_squares, sum) - 2.0;  // one parameter more
+  if (fitter.gain_on_all(minima.front(), *single) < 0.5 * thresholds::kTierPrice) {
+    const double gain = fitter.gain_on_some(minima.front(), *single) - 2.0;  // one parameter more
     return Both{fitter.rival_of(minima.front()), gain, false};
   }
   std::vector<DampedFit> fits;
@@ -193,7 +191,7 @@ std::optional<DampedFit> fit_filter(const FitInput& input, const DampedFit& coul
   // The orders of most amplifiers and loggers lie between these two.
   const std::optional<Minimum> filter = fitter->behind_filter(coulomb.blocks, std::array{start_of(2), start_of(4)});
   const std::optional<Minimum> rival = fitter->near(weakening);
-  if (!filter || !rival || fitter->gain_on_all(rival->sum_of_squares, filter->sum_of_squares) > kRuledOut) {
+  if (!filter || !rival || fitter->gain_on_all(*rival, *filter) > kRuledOut) {
     return std::nullopt;
   }
   return fitter->fit(filter->blocks);
