@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""thresholds.py [--check]: docs/thresholds.md from src/core/*thresholds.hpp. --check only says whether it is up to date (exit 1)."""
+"""thresholds.py [--check]: docs/thresholds.md from src/core/thresholds.hpp. --check only says whether it is up to date (exit 1)."""
 
 import pathlib
 import re
 import sys
 
 PROJECT = pathlib.Path(__file__).resolve().parent.parent
-SOURCES = [PROJECT / "src/core" / name for name in ("common_thresholds.hpp", "thresholds.hpp", "slip_thresholds.hpp", "fit_thresholds.hpp", "surface_thresholds.hpp")]
+SOURCE = PROJECT / "src/core/thresholds.hpp"
 TABLE = PROJECT / "docs/thresholds.md"
 CONSTANT = re.compile(r"inline constexpr [\w:]+ (k\w+) = ([^;]+);")
 
@@ -26,9 +26,9 @@ def rows(text):
             comment = []
 
 
-def table(texts):
-    lines = ["# Thresholds", "", "Made by `scripts/thresholds.py` from `src/core/common_thresholds.hpp`, `thresholds.hpp`, `slip_thresholds.hpp`, `fit_thresholds.hpp` and `surface_thresholds.hpp`. Change a number there.", ""]
-    for row in (row for text in texts for row in rows(text)):
+def table(text):
+    lines = ["# Thresholds", "", "Made by `scripts/thresholds.py` from `src/core/thresholds.hpp`. Change a number there.", ""]
+    for row in rows(text):
         if len(row) == 1:
             lines += ["", f"## {row[0]}", "", "| name | value | unit | decides | origin |", "|---|---|---|---|---|"]
         else:
@@ -38,10 +38,10 @@ def table(texts):
 
 
 def main():
-    made = table([source.read_text(encoding="utf-8") for source in SOURCES])
+    made = table(SOURCE.read_text(encoding="utf-8"))
     if "--check" in sys.argv[1:]:
         if not TABLE.exists() or TABLE.read_text(encoding="utf-8") != made:
-            sys.exit("docs/thresholds.md is not what src/core/*thresholds.hpp say: run scripts/thresholds.py")
+            sys.exit("docs/thresholds.md is not what src/core/thresholds.hpp says: run scripts/thresholds.py")
     else:
         TABLE.write_text(made, encoding="utf-8")
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <complex>
 
-#include "analysis/slip_intervals.hpp"
+#include "analysis/detect.hpp"
 #include "signal/transform.hpp"
 #include "slipfit/pipeline.hpp"
 

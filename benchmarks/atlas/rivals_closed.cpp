@@ -2,7 +2,7 @@
 #include <numbers>
 
 #include "model/slip.hpp"
-#include "model/velocity_track.hpp"
+#include "model/velocity_slip.hpp"
 #include "rivals.hpp"
 #include "slipfit/model/motion.hpp"
 #include "slipfit/model/paper.hpp"

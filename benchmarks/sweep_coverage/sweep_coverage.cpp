@@ -15,7 +15,7 @@
 #include <thread>
 #include <vector>
 
-#include "fit/selection/sweep_fit.hpp"
+#include "fit/sweep/sweep_solution.hpp"
 #include "sweeps.hpp"
 
 namespace {

@@ -5,7 +5,7 @@
 #include <random>
 #include <string>
 
-#include "model/velocity_track.hpp"
+#include "model/velocity_slip.hpp"
 
 namespace sweep_coverage {
 namespace {

@@ -12,8 +12,8 @@
 #include <string_view>
 #include <utility>
 
-#include "core/fit_thresholds.hpp"
-#include "core/student.hpp"
+#include "core/statistics.hpp"
+#include "core/thresholds.hpp"
 #include "core/unknown.hpp"
 
 namespace slipfit {

@@ -4,11 +4,15 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
+#include "slipfit/inspection.hpp"
 #include "slipfit/model/motion.hpp"
+#include "slipfit/pipeline.hpp"
 #include "slipfit/predict/single_speed.hpp"
 
 namespace slipfit {
+
 namespace {
 
 constexpr double kSmallestZeta = 1e-3;
@@ -94,6 +98,15 @@ std::optional<Prediction> predict_around(std::span<const SweepEntry> entries, co
   std::ranges::sort(speeds);
   const ObservedEnd observed = sweep.derived.observed_end.value_or(ObservedEnd{});
   return predict_at({*sweep.fit->result.estimate, true, std::nullopt, observed}, speeds);
+}
+
+/// The places of slips do not depend on the speed: where the file has none, any value gives the same.
+Result<Inspection> inspect(const std::filesystem::path& file, const ReadOptions& options) {
+  auto info = inspect_recording(file, options);
+  if (!info) return info.error();
+  Inspection inspection{std::move(info).value(), std::nullopt};
+  if (const auto& recording = inspection.info.recording) inspection.sliding = analyze(*recording).sliding;
+  return inspection;
 }
 
 }  // namespace slipfit

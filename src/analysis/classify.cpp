@@ -5,11 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/harmonic_null.hpp"
-#include "analysis/slip_shape.hpp"
-#include "core/slip_thresholds.hpp"
+#include "analysis/detect.hpp"
+#include "analysis/estimate.hpp"
 #include "core/thresholds.hpp"
-#include "signal/robust.hpp"
+#include "signal/smoothing.hpp"
 
 namespace slipfit {
 namespace {

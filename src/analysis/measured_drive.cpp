@@ -6,11 +6,9 @@
 #include <span>
 #include <utility>
 
-#include "analysis/slip_shape.hpp"
-#include "core/line_sums.hpp"
-#include "core/quantile.hpp"
+#include "analysis/detect.hpp"
 #include "core/sample_range.hpp"
-#include "core/student.hpp"
+#include "core/statistics.hpp"
 #include "core/thresholds.hpp"
 
 namespace slipfit {

@@ -6,13 +6,10 @@
 #include <complex>
 #include <numbers>
 
-#include "analysis/slip_intervals.hpp"
-#include "analysis/slip_shape.hpp"
-#include "core/line_sums.hpp"
-#include "core/quantile.hpp"
-#include "core/student.hpp"
+#include "analysis/detect.hpp"
+#include "core/statistics.hpp"
 #include "core/thresholds.hpp"
-#include "signal/robust.hpp"
+#include "signal/smoothing.hpp"
 
 namespace slipfit {
 namespace {

@@ -10,8 +10,7 @@
 
 #include "analysis/audit.hpp"
 #include "analysis/conclusions.hpp"
-#include "analysis/slip_intervals.hpp"
-#include "core/slip_thresholds.hpp"
+#include "analysis/detect.hpp"
 #include "core/thresholds.hpp"
 #include "core/unknown.hpp"
 

@@ -6,7 +6,6 @@
 #include <system_error>
 #include <utility>
 
-#include "batch/final_files.hpp"
 #include "batch/folder.hpp"
 #include "batch/pages.hpp"
 #include "batch/result_log.hpp"

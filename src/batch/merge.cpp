@@ -7,7 +7,6 @@
 #include <system_error>
 #include <utility>
 
-#include "batch/final_files.hpp"
 #include "batch/folder.hpp"
 #include "batch/result_log.hpp"
 #include "batch/run_file.hpp"

@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "batch/files.hpp"
-#include "batch/final_files.hpp"
+#include "batch/folder.hpp"
 #include "batch/tables.hpp"
 #include "report/batch_html.hpp"
 

@@ -1,18 +1,139 @@
-#include <fmt/format.h>
+#include "chart/svg.hpp"
 
+#include <fmt/format.h>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdlib>
+#include <iterator>
 #include <limits>
 #include <numbers>
 #include <string>
+#include <string_view>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "chart/chart.hpp"
-#include "chart/drawing.hpp"
 
 namespace slipfit::chart {
+
+namespace {
+
+struct ColourName {
+  const char* value;
+  const char* variable;  ///< of the page's style sheet
+};
+
+// In the order of Colour, Stroke. Values as on a light page: at least 3:1 against white.
+constexpr std::array<ColourName, 9> kColours{{{"#000000", "black"},
+                                              {"#C07F00", "orange"},
+                                              {"#2F93CF", "sky"},
+                                              {"#009E73", "green"},
+                                              {"#9A9000", "yellow"},
+                                              {"#0072B2", "blue"},
+                                              {"#D55E00", "vermillion"},
+                                              {"#C2659A", "purple"},
+                                              {"#6F6F6F", "grey"}}};
+constexpr std::array kDashes{"", "8 4", "2 3", "10 3 2 3"};
+
+template <class Choice>
+std::size_t index_of(Choice choice) {
+  return static_cast<std::size_t>(choice);
+}
+
+}  // namespace
+
+std::string escaped(const std::string& text) {
+  constexpr std::string_view kSpecial = "&<>\"";
+  constexpr std::array kEscapes{"&amp;", "&lt;", "&gt;", "&quot;"};
+  std::string result;
+  for (const char c : text) {
+    const std::size_t special = kSpecial.find(c);
+    result += special == std::string_view::npos ? std::string(1, c) : kEscapes.at(special);
+  }
+  return result;
+}
+
+double letters_in(const std::string& text) {
+  const auto begins_letter = [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; };
+  return static_cast<double>(std::ranges::count_if(text, begins_letter));
+}
+
+void Drawing::text(double x, double y, const std::string& content, const char* css_class, const std::string& more) {
+  fmt::format_to(std::back_inserter(svg_), "<text x=\"{:.1f}\" y=\"{:.1f}\" class=\"{}\"{}>{}</text>\n", x, y,
+                 css_class, more, escaped(content));
+}
+
+void Drawing::line(double x1, double y1, double x2, double y2, const std::string& style) {
+  fmt::format_to(std::back_inserter(svg_), "<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" {}/>\n", x1,
+                 y1, x2, y2, style);
+}
+
+void Drawing::box(double x, double y, double width, double height, const std::string& style) {
+  fmt::format_to(std::back_inserter(svg_), "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" {}/>\n",
+                 x, y, width, height, style);
+}
+
+void Drawing::path(const std::string& data, const std::string& style) {
+  fmt::format_to(std::back_inserter(svg_), "<path d=\"{}\" {}/>\n", data, style);
+}
+
+void Drawing::markers(const std::vector<Point>& places, Colour colour, Shape shape, const std::string& attributes) {
+  constexpr const char* kRound = "M-4 0a4 4 0 1 0 8 0a4 4 0 1 0 -8 0z";
+  const std::string name = name_of(colour);
+  const auto filled = [&name](const char* opacity) { return fmt::format("fill=\"{}\"{}", name, opacity); };
+  const std::string ring = fmt::format("fill=\"{}\" stroke=\"{}\" stroke-width=\"2\"",
+                                       palette_ == Palette::File ? "#FFF" : "var(--chart-paper)", name);
+  struct Look {
+    const char* outline;
+    std::string style;
+  };
+  // In the order of Shape.
+  const std::array<Look, 5> looks{{{kRound, filled("")},
+                                   {"M-2 0a2 2 0 1 0 4 0a2 2 0 1 0 -4 0z", filled(" fill-opacity=\"0.8\"")},
+                                   {kRound, ring},
+                                   {"M0 -5 5 4 -5 4z", ring},
+                                   {"M-4 -4 4 4M-4 4 4 -4", fmt::format("stroke=\"{}\" stroke-width=\"2.4\"", name)}}};
+  const Look& look = looks.at(index_of(shape));
+  raw(fmt::format("<g {}{}>\n", look.style, attributes));
+  for (const Point& place : places)
+    path(look.outline, fmt::format("transform=\"translate({:.1f} {:.1f})\"", place.x, place.y));
+  raw("</g>\n");
+}
+
+std::string Drawing::name_of(Colour colour) const {
+  const ColourName& name = kColours.at(index_of(colour));
+  return palette_ == Palette::File ? name.value : fmt::format("var(--chart-{})", name.variable);
+}
+
+std::string Drawing::stroke_style(const Line& line) const {
+  const char* dashes = kDashes.at(index_of(line.stroke));
+  return fmt::format("fill=\"none\" stroke=\"{}\" stroke-width=\"{}\"{}", name_of(line.colour), line.width_px,
+                     *dashes == '\0' ? "" : fmt::format(" stroke-dasharray=\"{}\"", dashes));
+}
+
+std::string Drawing::area_style(const Area& area, const std::string& id) const {
+  if (area.fill == Fill::Hatched) return fmt::format("fill=\"url(#{}hatch{})\"", id, index_of(area.colour));
+  const std::string name = name_of(area.colour);
+  const std::string edge =
+      area.edge_px > 0.0 ? fmt::format(" stroke=\"{}\" stroke-width=\"{}\"", name, area.edge_px) : std::string();
+  return fmt::format("fill=\"{}\" fill-opacity=\"0.3\"{}", name, edge);
+}
+
+std::string Drawing::hatches(const std::string& id) const {
+  std::string patterns = "<defs>\n";
+  for (std::size_t i = 0; i < kColours.size(); ++i) {
+    patterns += fmt::format(
+        "<pattern id=\"{}hatch{}\" width=\"8\" height=\"8\" patternUnits=\"userSpaceOnUse\" "
+        "patternTransform=\"rotate(40)\">"
+        "<path d=\"M0 0V8\" stroke=\"{}\" stroke-width=\"2\"/></pattern>\n",
+        id, i, name_of(static_cast<Colour>(i)));
+  }
+  return patterns + "</defs>\n";
+}
+
 namespace {
 
 // Pixels.
@@ -251,6 +372,218 @@ std::string to_page_svg(const Chart& chart, const PagePlace& place) {
   return fmt::format("<svg class=\"chart\" id=\"{}\" role=\"img\" aria-label=\"{}\" viewBox=\"0 0 {:.0f} {:.0f}\">\n",
                      place.id, escaped(place.label), picture_width(chart), height) +
          hatches_of(drawing, chart, id) + drawing.svg() + "</svg>\n";
+}
+
+namespace {
+
+// Pixels.
+constexpr double kCharacter = 6.6;  // mean width of a letter at 12 px
+constexpr double kSample = 26.0;    // length of a line in the legend
+constexpr double kGap = 22.0;       // between two entries in a row
+
+struct Entry {
+  std::string name;
+  std::variant<const Line*, const Markers*, const Area*> what;
+
+  [[nodiscard]] double width() const { return kSample + kGap + kCharacter * letters_in(name); }
+};
+
+std::vector<Entry> entries_of(const Panel& panel) {
+  std::vector<Entry> entries;
+  if (panel.legend_at == LegendAt::None) return entries;
+  for (const Line& line : panel.lines) entries.push_back({line.name, &line});
+  for (const Markers& markers : panel.markers) entries.push_back({markers.name, &markers});
+  for (const Area& area : panel.areas) entries.push_back({area.name, &area});
+  std::erase_if(entries, [](const Entry& entry) { return entry.name.empty(); });
+  return entries;
+}
+
+struct Spot {
+  double x = 0.0;
+  double y = 0.0;
+};
+
+/// `spot`: left end of the sample, middle of the row.
+void draw_sample(Drawing& drawing, const Entry& entry, Spot spot, const std::string& id) {
+  if (const auto* line = std::get_if<const Line*>(&entry.what)) {
+    drawing.line(spot.x, spot.y, spot.x + kSample, spot.y, drawing.stroke_style(**line));
+  } else if (const auto* markers = std::get_if<const Markers*>(&entry.what)) {
+    drawing.markers({{spot.x + 0.5 * kSample, spot.y}}, (*markers)->colour, (*markers)->shape);
+  } else if (const auto* area = std::get_if<const Area*>(&entry.what)) {
+    drawing.box(spot.x, spot.y - 6.0, kSample, 12.0, drawing.area_style(**area, id));
+  }
+}
+
+void draw_entry(Drawing& drawing, const Entry& entry, Spot spot, const std::string& id) {
+  drawing.text(spot.x + kSample + 7.0, spot.y + 4.0, entry.name, "value");
+  draw_sample(drawing, entry, spot, id);
+}
+
+/// Returns the position of each entry of a legend above the axes, from the upper left corner; a full row starts another
+/// one.
+std::vector<Spot> rows_of(const std::vector<Entry>& entries, double width_px) {
+  std::vector<Spot> spots;
+  Spot next;
+  for (const Entry& entry : entries) {
+    if (next.x > 0.0 && next.x + entry.width() - kGap > width_px) next = {0.0, next.y + kLineHeight_px};
+    spots.push_back(next);
+    next.x += entry.width();
+  }
+  return spots;
+}
+
+}  // namespace
+
+double legend_height_px(const Panel& panel, double width_px) {
+  const std::vector<Entry> entries = entries_of(panel);
+  if (entries.empty()) return 0.0;
+  return rows_of(entries, width_px).back().y + kLineHeight_px + 6.0;
+}
+
+void draw_legend(Drawing& drawing, const Panel& panel, const Frame& frame, const std::string& id) {
+  const std::vector<Entry> entries = entries_of(panel);
+  if (entries.empty()) return;
+  const double top = frame.top - legend_height_px(panel, frame.width) + 0.5 * kLineHeight_px;
+  const std::vector<Spot> spots = rows_of(entries, frame.width);
+  drawing.raw("<g class=\"entries\">\n");
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    draw_entry(drawing, entries[i], {frame.left + spots[i].x, top + spots[i].y}, id);
+  }
+  drawing.raw("</g>\n");
+}
+
+std::string to_page_legend(const Chart& chart, const std::string& id) {
+  constexpr double kHeight = 14.0;
+  std::string rows;
+  std::vector<std::string> names;
+  for (const Panel& panel : chart.panels) {
+    if (panel.legend_at != LegendAt::Above) continue;
+    for (const Entry& entry : entries_of(panel)) {
+      if (std::ranges::find(names, entry.name) != names.end()) continue;
+      if (&panel != &chart.panels.front()) return {};
+      names.push_back(entry.name);
+      Drawing sample(Palette::Page);
+      draw_sample(sample, entry, {0.0, 0.5 * kHeight}, id + "-");
+      rows += fmt::format("<li><svg width=\"{0:.0f}\" height=\"{1:.0f}\" aria-hidden=\"true\">{2}</svg>{3}</li>\n",
+                          kSample, kHeight, sample.svg(), escaped(entry.name));
+    }
+  }
+  return rows.empty() ? rows : "<ul class=\"legend-list\">\n" + rows + "</ul>\n";
+}
+
+namespace {
+
+constexpr double kSlack = 1e-9;  // of a step: a tick on the end of the axis counts in spite of rounding
+
+double step_for(double range, int most_steps) {
+  const double power = std::pow(10.0, std::floor(std::log10(range / most_steps)));
+  for (const double step : {power, 2.0 * power, 5.0 * power}) {
+    if (range / step <= most_steps + kSlack) return step;
+  }
+  return 10.0 * power;
+}
+
+/// Power of ten of the first digit.
+double exponent_of(double value) {
+  return std::floor(std::log10(std::abs(value)));
+}
+
+/// Writes a tick with enough digits to differ from its neighbours: a clock of the year 1970 needs ten before the
+/// decimal point.
+std::string text_of(double value, double step) {
+  constexpr double kFew = 6.0;
+  constexpr double kMost = 16.0;  // that a double has
+  const double digits = value == 0.0 ? kFew : exponent_of(value) - exponent_of(step) + 1.0;
+  return fmt::format("{:.{}g}", value, static_cast<int>(std::clamp(digits, kFew, kMost)));
+}
+
+std::vector<Tick> linear_ticks(const Axis& axis, int most_steps) {
+  const double step = step_for(axis.high - axis.low, most_steps);
+  const double first = std::ceil(axis.low / step - kSlack);
+  std::vector<Tick> ticks;
+  for (int i = 0; i <= most_steps; ++i) {
+    const double value = (first + i) * step + 0.0;  // not -0
+    if (value > axis.high + kSlack * step) break;
+    ticks.push_back({value, text_of(value, step)});
+  }
+  constexpr int kClose = 8;  // a single value does not show the scale
+  return ticks.size() < 2 && most_steps < kClose ? linear_ticks(axis, most_steps + 1) : ticks;
+}
+
+/// Decades carry values; on a short axis 2 and 5 of each decade too, on a very short one every part.
+bool carries_value(const Axis& axis, int part) {
+  const double decades = std::log10(axis.high / axis.low);
+  return part == 1 || decades < 0.7 || (decades < 2.0 && (part == 2 || part == 5));
+}
+
+/// 10 to the power of `decade`, times `part` unless that is 1.
+std::string power_of_ten(int part, int decade) {
+  constexpr std::array kRaised{"\u2070", "\u00B9", "\u00B2", "\u00B3", "\u2074",
+                               "\u2075", "\u2076", "\u2077", "\u2078", "\u2079"};
+  std::string text = part == 1 ? "10" : fmt::format("{}\u00D710", part);
+  for (const char c : std::to_string(decade))
+    text += c == '-' ? "\u207B" : kRaised.at(static_cast<std::size_t>(c - '0'));
+  return text;
+}
+
+std::vector<Tick> logarithmic_ticks(const Axis& axis) {
+  constexpr int kMostDecades = 24;  // beyond them some decades represent all
+  const int first = static_cast<int>(std::floor(std::log10(axis.low) + kSlack));
+  const int last = static_cast<int>(std::floor(std::log10(axis.high) + kSlack));
+  const int stride = 1 + (last - first) / kMostDecades;
+  const bool is_plain = first >= -4 && last <= 5;  // no exponent in any of them
+  std::vector<Tick> ticks;
+  for (int decade = first; decade <= last; decade += stride) {
+    for (int part = 1; part < (stride == 1 ? 10 : 2); ++part) {
+      const double value = part * std::pow(10.0, decade);
+      if (value < axis.low * (1.0 - kSlack) || value > axis.high * (1.0 + kSlack)) continue;
+      const std::string text = is_plain ? fmt::format("{:.6g}", value) : power_of_ten(part, decade);
+      ticks.push_back({value, carries_value(axis, part) ? text : std::string()});
+    }
+  }
+  return ticks;
+}
+
+constexpr double kLargest = 1e300;  // differences and sums of two such numbers are finite
+constexpr double kSmallest = 1e-300;
+
+Axis drawable_linear(Axis axis) {
+  constexpr double kLeastShare =
+      64.0 * std::numeric_limits<double>::epsilon();  // eight doubles for each of eight steps
+  const double least = std::max(kSmallest, kLeastShare * std::max(std::abs(axis.low), std::abs(axis.high)));
+  if (axis.high - axis.low >= least) return axis;
+  const double middle = axis.low + 0.5 * (axis.high - axis.low);
+  axis.low = middle - 0.5 * least;
+  axis.high = middle + 0.5 * least;
+  return axis;
+}
+
+Axis drawable_logarithmic(Axis axis) {
+  constexpr double kLeastRatio = 1.001;
+  axis.low = std::max(axis.low, kSmallest);
+  axis.high = std::max(axis.high, axis.low);
+  if (axis.high >= kLeastRatio * axis.low) return axis;
+  axis.low /= kLeastRatio;
+  axis.high *= kLeastRatio;
+  return axis;
+}
+
+}  // namespace
+
+Axis drawable(Axis axis) {
+  const bool is_linear = axis.scale == Scale::Linear;
+  if (std::isnan(axis.low) || std::isnan(axis.high)) {
+    axis.low = is_linear ? 0.0 : 1.0;
+    axis.high = axis.low + 1.0;
+  }
+  if (axis.high < axis.low) std::swap(axis.low, axis.high);
+  axis.low = std::clamp(axis.low, -kLargest, kLargest);
+  axis.high = std::clamp(axis.high, -kLargest, kLargest);
+  return is_linear ? drawable_linear(std::move(axis)) : drawable_logarithmic(std::move(axis));
+}
+
+std::vector<Tick> ticks_of(const Axis& axis, int most_steps) {
+  return axis.scale == Scale::Linear ? linear_ticks(axis, most_steps) : logarithmic_ticks(axis);
 }
 
 }  // namespace slipfit::chart

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "core/student.hpp"
+#include "core/statistics.hpp"
 #include "core/unknown.hpp"
 
 namespace slipfit::comparing {

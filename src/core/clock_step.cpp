@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/line_sums.hpp"
-#include "core/quantile.hpp"
+#include "core/statistics.hpp"
 
 namespace slipfit {
 namespace {

@@ -10,6 +10,7 @@
 #include "core/word_list.hpp"
 
 namespace slipfit {
+
 namespace {
 
 constexpr std::size_t kLongestUnit = 64;

@@ -8,12 +8,12 @@
 #include <cmath>
 #include <utility>
 
-#include "core/fit_thresholds.hpp"
-#include "core/quantile.hpp"
-#include "fit/contact/contact_fit.hpp"
-#include "fit/cycle/cycle_table.hpp"
+#include "core/statistics.hpp"
+#include "core/thresholds.hpp"
+#include "fit/contact_fit.hpp"
+#include "fit/cycle/cycle_data.hpp"
 #include "fit/fit_unless.hpp"
-#include "fit/level/mains_hum.hpp"
+#include "fit/level/hum.hpp"
 #include "fit/report/recording_findings.hpp"
 #include "fit/selection/chosen_fit.hpp"
 #include "fit/selection/tiers.hpp"

@@ -4,7 +4,7 @@
 #include <functional>
 #include <optional>
 
-#include "fit/selection/fit_input.hpp"
+#include "fit/selection/solution.hpp"
 #include "slipfit/fit/options.hpp"
 #include "slipfit/fit/result.hpp"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/fit_thresholds.hpp"
+#include "core/thresholds.hpp"
 
 namespace slipfit {
 

@@ -6,22 +6,19 @@
 #include <cmath>
 #include <utility>
 
-#include "core/fit_thresholds.hpp"
 #include "core/thresholds.hpp"
 #include "core/unknown.hpp"
 #include "fit/inference/intervals.hpp"
-#include "fit/inference/load_response.hpp"
-#include "fit/inference/sensor_time.hpp"
-#include "fit/inference/sliding_model.hpp"
-#include "fit/inference/sweep_outcome.hpp"
-#include "fit/report/findings.hpp"
-#include "fit/report/open_damping.hpp"
-#include "fit/report/trend_notes.hpp"
-#include "fit/selection/law_choice.hpp"
-#include "fit/selection/relaxation.hpp"
+#include "fit/report/parameters.hpp"
+#include "fit/report/recording_findings.hpp"
 #include "fit/selection/ring_down_fit.hpp"
-#include "fit/selection/sweep_solution.hpp"
-#include "signal/robust.hpp"
+#include "fit/selection/solution.hpp"
+#include "fit/sweep/ageing_line.hpp"
+#include "fit/sweep/law_choice.hpp"
+#include "fit/sweep/sweep_data.hpp"
+#include "fit/sweep/sweep_outcome.hpp"
+#include "fit/sweep/sweep_solution.hpp"
+#include "signal/smoothing.hpp"
 
 namespace slipfit {
 namespace {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,19 @@
 #include "slipfit/io/named_recording.hpp"
 
 namespace slipfit::reading {
+
+/// The force is measured with the other sign: at least 90 % of the samples are negative.
+bool is_negative_throughout(std::span<const double> force);
+
+/// Returns true if more than half of the samples are negative.
+bool is_mostly_negative(std::span<const double> force);
+
+/// The direction in which the force repeatedly changes much faster than in the other.
+enum class SuddenChanges { None, Falls, Rises };
+
+/// Returns the direction of sudden changes, by the skewness of the changes over some time: far from 0 with one sign,
+/// whichever sixteenth of the trace is left out.
+SuddenChanges sudden_changes(std::span<const double> force);
 
 /// Forces that oppose the motion, and what the columns say of speed and load. Errors: those of check_part,
 /// state_conditions and Recording::create; no_strokes. The strokes of a reciprocating test are one recording.

@@ -4,14 +4,16 @@
 #include <array>
 #include <cctype>
 #include <charconv>
+#include <chrono>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 
 #include "core/number_text.hpp"
 #include "core/word_list.hpp"
-#include "io/decimal.hpp"
 
 namespace slipfit::reading {
+
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
@@ -264,6 +266,107 @@ std::optional<std::vector<std::string>> csv_fields(std::string_view line, char d
     if (end == line.size()) return fields;
     line.remove_prefix(end + 1);
   }
+}
+
+namespace {
+
+struct DateParts {
+  std::array<int, 3> numbers{};
+  std::array<std::size_t, 3> digits{};
+  char separator = '\0';
+  std::size_t length = 0;
+};
+
+/// Three numbers with the same sign between them.
+std::optional<DateParts> read_parts(std::string_view text) {
+  DateParts parts;
+  const char* p = text.data();
+  const char* const end = p + text.size();
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (i > 0 && (p == end || (i == 2 && *p != parts.separator))) return std::nullopt;
+    if (i > 0) parts.separator = *p++;
+    const auto [stop, error] = std::from_chars(p, end, parts.numbers.at(i));
+    if (error != std::errc() || parts.numbers.at(i) < 0) return std::nullopt;
+    parts.digits.at(i) = static_cast<std::size_t>(stop - p);
+    p = stop;
+  }
+  parts.length = static_cast<std::size_t>(p - text.data());
+  return parts;
+}
+
+/// "Z", "+02:00", "-0500" at the end of an ISO time: the same for all rows.
+std::string_view without_zone(std::string_view clock) {
+  if (clock.ends_with('Z')) return clock.substr(0, clock.size() - 1);
+  const std::size_t sign = clock.find_last_of("+-");
+  return sign == std::string_view::npos ? clock : clock.substr(0, sign);
+}
+
+}  // namespace
+
+std::optional<DateStart> read_date(std::string_view text) {
+  const auto parts = read_parts(text);
+  if (!parts) return std::nullopt;
+  std::string_view clock = text.substr(parts->length);
+  if (!clock.empty() && clock.front() != ' ' && clock.front() != 'T') return std::nullopt;
+  if (!clock.empty()) clock.remove_prefix(1);
+  while (clock.starts_with(' ')) clock.remove_prefix(1);
+  const auto& [first, second, third] = parts->numbers;
+  const bool is_ISO = (parts->separator == '-' || parts->separator == '/') && parts->digits[0] == 4;
+  const bool is_German = parts->separator == '.' && (parts->digits[2] == 4 || parts->digits[2] == 2);
+  const bool is_slashed = parts->separator == '/' && (parts->digits[2] == 4 || parts->digits[2] == 2);
+  if (!is_ISO && is_slashed && std::max(first, second) <= 31 && std::min(first, second) <= 12) {
+    return DateStart{0.0, clock};
+  }
+  if (!is_ISO && !is_German) return std::nullopt;
+  const int century = parts->digits[2] == 2 ? 2000 : 0;
+  using namespace std::chrono;
+  const year_month_day date =
+      is_ISO ? year_month_day{year{first}, month{static_cast<unsigned>(second)}, day{static_cast<unsigned>(third)}}
+             : year_month_day{year{century + third}, month{static_cast<unsigned>(second)},
+                              day{static_cast<unsigned>(first)}};
+  if (!date.ok()) return std::nullopt;
+  const auto since_1970 = sys_days{date}.time_since_epoch();
+  return DateStart{86400.0 * static_cast<double>(since_1970.count()), is_ISO ? without_zone(clock) : clock};
+}
+
+namespace {
+
+constexpr std::size_t kLongest = 64;
+constexpr std::size_t kMostShapes = 256;
+
+/// Returns the shape of a cell, or an empty text if it does not look like a number.
+std::string shape_of(std::string_view cell) {
+  std::string shape;
+  bool has_digit = false;
+  for (const char c : cell) {
+    const bool is_letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+    if (cell.size() > kLongest || c == ':' || c == '/' || (is_letter && c != 'e' && c != 'E')) return {};
+    has_digit = has_digit || is_digit(c);
+    if (!is_digit(c)) {
+      shape += c;
+    } else if (shape.empty() || shape.back() != '0') {
+      shape += '0';
+    }
+  }
+  return has_digit ? shape : std::string();
+}
+
+}  // namespace
+
+void UnreadCellCount::add(std::string_view cell, std::size_t column, unsigned line) {
+  cell = unquote(cell);
+  std::string shape = shape_of(cell);
+  if (shape.empty()) return;
+  std::pair key(column, std::move(shape));
+  if (by_shape_.size() >= kMostShapes && !by_shape_.contains(key)) return;
+  UnreadCells& cells = by_shape_[std::move(key)];
+  if (cells.count++ == 0) cells = {1, column, line, std::string(cell)};
+}
+
+std::optional<UnreadCells> UnreadCellCount::most() const {
+  const auto found =
+      std::ranges::max_element(by_shape_, [](const auto& a, const auto& b) { return a.second.count < b.second.count; });
+  return found == by_shape_.end() ? std::nullopt : std::optional(found->second);
 }
 
 }  // namespace slipfit::reading

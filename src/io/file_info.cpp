@@ -9,7 +9,6 @@
 #include "core/thrown_error.hpp"
 #include "io/build.hpp"
 #include "io/columns.hpp"
-#include "io/levels.hpp"
 #include "io/message.hpp"
 #include "io/opened_file.hpp"
 #include "io/part.hpp"

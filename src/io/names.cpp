@@ -9,9 +9,9 @@
 #include "core/word_list.hpp"
 #include "io/cells.hpp"
 #include "io/message.hpp"
-#include "io/vocabulary.hpp"
 
 namespace slipfit::reading {
+
 namespace {
 
 /// Words that name a column as often as a unit: behind a blank or an underscore they are no unit ("Force_Min").

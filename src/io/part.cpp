@@ -8,7 +8,7 @@
 
 #include "core/clock_step.hpp"
 #include "core/thrown_error.hpp"
-#include "io/column_search.hpp"
+#include "io/columns.hpp"
 #include "io/message.hpp"
 #include "io/steps.hpp"
 

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "core/word_list.hpp"
-#include "io/decimal.hpp"
+#include "io/cells.hpp"
 #include "io/text_lines.hpp"
 
 namespace slipfit::reading {

@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "core/sample_range.hpp"
+#include "io/cells.hpp"
 #include "io/columns.hpp"
 #include "io/layout.hpp"
 #include "io/text_source.hpp"
-#include "io/unread_cells.hpp"
 #include "slipfit/io/read_options.hpp"
 
 namespace slipfit::reading {

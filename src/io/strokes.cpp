@@ -5,7 +5,7 @@
 #include <iterator>
 #include <utility>
 
-#include "core/quantile.hpp"
+#include "core/statistics.hpp"
 
 namespace slipfit::reading {
 namespace {

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "io/container/byte_stream.hpp"
+#include "io/container/formats.hpp"
 #include "slipfit/core/digest.hpp"
 
 namespace slipfit::reading {

@@ -11,7 +11,7 @@
 
 #include "model/root_between.hpp"
 #include "model/slip_series.hpp"
-#include "model/weakening_slide.hpp"
+#include "model/weakening.hpp"
 #include "slipfit/core/recording.hpp"
 
 namespace slipfit::model {

@@ -4,7 +4,7 @@
 
 #include "model/root_between.hpp"
 #include "model/slip.hpp"
-#include "model/velocity_track.hpp"
+#include "model/velocity_slip.hpp"
 
 namespace slipfit::model {
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "model/parameter_error.hpp"
+#include "model/motion.hpp"
 
 namespace slipfit {
 

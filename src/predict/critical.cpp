@@ -8,10 +8,9 @@
 #include <optional>
 #include <vector>
 
-#include "core/fit_thresholds.hpp"
-#include "core/student.hpp"
+#include "core/statistics.hpp"
+#include "core/thresholds.hpp"
 #include "predict/draws.hpp"
-#include "predict/motion.hpp"
 
 namespace slipfit::predict {
 namespace {

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "core/unknown.hpp"
-#include "predict/delta.hpp"
+#include "predict/draws.hpp"
 
 namespace slipfit::predict {
 

@@ -1,15 +1,23 @@
 #include "slipfit/predict/derived.hpp"
 
+#include <fmt/format.h>
 #include <algorithm>
+#include <cassert>
 #include <cmath>
+#include <cstddef>
+#include <string>
 #include <utility>
 
-#include "core/student.hpp"
+#include "core/statistics.hpp"
+#include "core/thresholds.hpp"
+#include "core/unknown.hpp"
 #include "predict/critical.hpp"
-#include "predict/motion.hpp"
+#include "predict/draws.hpp"
+#include "slipfit/predict/observed_end.hpp"
 #include "slipfit/predict/single_speed.hpp"
 
 namespace slipfit {
+
 namespace {
 
 /// gamma = F_s / F_k, [Paper] eq. (5): needs the sensor's zero.
@@ -123,6 +131,73 @@ Derived derive_from_sweep(const FitResult& fit, const ObservedEnd& observed) {
   derived.lambda_critical = std::move(critical.lambda);
   derived.critical_speed_m_per_s = with_observed_end(critical.speed_m_per_s, observed);
   return derived;
+}
+
+ModelEstimate from_single_speed(ModelEstimate model, double speed_m_per_s,
+                                const std::array<ParameterStatus, 4>& statuses) {
+  SingleSpeed single{speed_m_per_s, {}};
+  for (std::size_t i = 0; i < statuses.size(); ++i) {
+    if (statuses[i] == ParameterStatus::Identified || statuses[i] == ParameterStatus::Fixed) continue;
+    const ParameterId id = kModelParameters[i];
+    const bool is_conditional = statuses[i] == ParameterStatus::Conditional;
+    // What else acts as a spring within a slip does so at other speeds, too.
+    if (is_conditional && id == ParameterId::NaturalFrequency) continue;
+    const double relative = is_conditional ? info(id).identified_below : thresholds::kWeakError;
+    const double scale = id == ParameterId::DampingRatio ? model.damping_ratio : 1.0;  // the others by their logarithms
+    single.least_errors[i] = scale * relative;
+  }
+  model.single_speed = single;
+  return model;
+}
+
+ModelEstimate from_single_speed(const FitResult& fit, double speed_m_per_s) {
+  assert(fit.estimate);
+  std::array<ParameterStatus, 4> statuses{};
+  for (std::size_t i = 0; i < statuses.size(); ++i) {
+    const Parameter* const parameter = fit.find(kModelParameters[i]);
+    statuses[i] = parameter != nullptr ? parameter->status : ParameterStatus::Unidentified;
+  }
+  return from_single_speed(*fit.estimate, speed_m_per_s, statuses);
+}
+
+namespace {
+
+/// Estimates the end by the runs alone. `why` says why the fit does not determine it.
+Estimate by_runs(const ObservedEnd& observed, const std::string& why) {
+  const double sticks = *observed.sticks_m_per_s;
+  if (!observed.slides_m_per_s) {
+    return unknown(
+        fmt::format("above {:.4g} m/s, the fastest run, which sticks; the fit gives no upper bound: {}", sticks, why));
+  }
+  const double slides = *observed.slides_m_per_s;
+  return {
+      std::sqrt(sticks * slides), std::nullopt, Interval{sticks, slides},
+      fmt::format("by the runs: the fastest that sticks and the slowest that does not; the fit does not determine it: "
+                  "{}",
+                  why)};
+}
+
+/// Puts an interval without an upper end into words.
+Estimate with_bound_in_words(const Estimate& by_fit) {
+  if (by_fit.value || !by_fit.ci95) return by_fit;
+  return unknown(fmt::format("above {:.4g} m/s; no upper bound: {}", by_fit.ci95->low, by_fit.note));
+}
+
+}  // namespace
+
+Estimate with_observed_end(const Estimate& by_fit, const ObservedEnd& observed) {
+  if (!observed.sticks_m_per_s) return with_bound_in_words(by_fit);
+  if (!by_fit.value && !by_fit.ci95) return by_runs(observed, by_fit.note);
+  if (!by_fit.ci95) return by_fit;
+  const double sticks = *observed.sticks_m_per_s;
+  const double slides = observed.slides_m_per_s.value_or(HUGE_VAL);
+  if (by_fit.ci95->high < sticks) return by_runs(observed, "the fit puts it below a speed at which a run sticks");
+  if (by_fit.ci95->low > slides) return by_runs(observed, "the fit puts it above a speed at which a run slides");
+  Estimate both = by_fit;
+  both.ci95 = Interval{std::max(by_fit.ci95->low, sticks), std::min(by_fit.ci95->high, slides)};
+  if (!both.value && std::isfinite(both.ci95->high)) both.value = std::sqrt(both.ci95->low * both.ci95->high);
+  if (both.value) both.value = std::clamp(*both.value, both.ci95->low, both.ci95->high);
+  return with_bound_in_words(both);
 }
 
 }  // namespace slipfit

@@ -3,11 +3,9 @@
 #include <cmath>
 #include <utility>
 
-#include "core/fit_thresholds.hpp"
+#include "core/thresholds.hpp"
 #include "predict/critical.hpp"
-#include "predict/cycles_of_draws.hpp"
-#include "predict/delta.hpp"
-#include "predict/motion.hpp"
+#include "predict/draws.hpp"
 #include "slipfit/core/range.hpp"
 
 namespace slipfit {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "report/document/document_values.hpp"
+#include "report/document/json_node.hpp"
 #include "slipfit/core/estimate.hpp"
 #include "slipfit/core/recording.hpp"
 #include "slipfit/core/result.hpp"

@@ -1,20 +1,20 @@
-#include "slipfit/report/comparison.hpp"
+#include "report/comparison.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-
 #include <algorithm>
 #include <array>
 
 #include "core/unknown.hpp"
-#include "report/comparison_text.hpp"
 #include "report/format.hpp"
 #include "report/json_sections.hpp"
 #include "report/text_sections.hpp"
 #include "slipfit/core/printable.hpp"
+#include "slipfit/report/comparison.hpp"
 #include "slipfit/report/text.hpp"
 
 namespace slipfit {
+
 namespace {
 
 std::string_view name_of(ComparisonMethod method) {

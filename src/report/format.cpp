@@ -8,7 +8,7 @@
 #include <cmath>
 #include <utility>
 
-#include "core/student.hpp"
+#include "core/statistics.hpp"
 #include "slipfit/core/printable.hpp"
 #include "slipfit/core/units.hpp"
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "report/json_values.hpp"
+#include "report/json_sections.hpp"
 #include "report/text_sections.hpp"
 #include "slipfit/core/printable.hpp"
 

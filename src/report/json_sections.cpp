@@ -1,14 +1,93 @@
 #include "report/json_sections.hpp"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
-#include "report/model_terms.hpp"
+#include "report/format.hpp"
 #include "report/names.hpp"
 #include "report/quantities.hpp"
+#include "slipfit/core/printable.hpp"
+#include "slipfit/core/range.hpp"
 
 namespace slipfit {
+
+void to_json(Json& json, const Interval& bounds) {
+  if (is_finite(bounds.low) && is_finite(bounds.high)) json = {bounds.low, bounds.high};
+}
+
+void to_json(Json& json, const Estimate& quantity) {
+  json = {{"value", quantity.value}, {"se", quantity.standard_error}, {"ci95", quantity.ci95}};
+  if (!quantity.note.empty()) json["note"] = quantity.note;
+}
+
+void to_json(Json& json, const Warning& warning) {
+  json = {{"code", warning.code}, {"message", warning.message}};
+}
+
+std::string text_of(const Json& json, JsonLayout layout) {
+  const int indent = layout == JsonLayout::Indented ? 2 : -1;
+  return printable_lines(json.dump(indent, ' ', false, Json::error_handler_t::replace));
+}
+
+void ForceKeys::put(const std::string& name, std::optional<double> value) {
+  if (quantity_ == ForceQuantity::Force_N) {
+    object_[name + "_N"] = value;
+  } else {
+    object_[name + "_N"] = nullptr;
+    coefficient_[name] = value;
+  }
+}
+
+void ForceKeys::finish() {
+  if (quantity_ == ForceQuantity::FrictionCoefficient) object_["coefficient"] = std::move(coefficient_);
+}
+
+namespace {
+
+using Id = ParameterId;
+
+struct TermRow {
+  std::string_view code;
+  std::array<Id, 2> parameters;  ///< twice the same: one; the first is the one of the text
+  std::string_view words;
+};
+
+constexpr auto kTerms = std::to_array<TermRow>({
+    {"samples_averaged", {Id::SensorAverage, Id::SensorAverage}, "sensor averaging over"},
+    {"slip_weakening", {Id::SlipDistance, Id::SlipDistance}, "friction that weakens over a slip distance of"},
+    {"force_recovery", {Id::ReloadForce, Id::ReloadLength}, "force recovery after a slip of"},
+    {"relaxing_spring", {Id::Relaxation, Id::RelaxationTime}, "a spring that relaxes by a share of"},
+    {"stiffness_goes_with_speed", {Id::StiffnessExponent, Id::StiffnessExponent}, "k proportional to V to the power"},
+    {"static_friction_ages", {Id::Ageing, Id::AgeingTime}, "static friction that ages at a rate of"},
+});
+
+}  // namespace
+
+std::vector<ModelTerm> model_terms(const FitResult& fit) {
+  std::vector<ModelTerm> terms;
+  for (const TermRow& row : kTerms) {
+    const Parameter* const first = fit.find(row.parameters.front());
+    if (first == nullptr || !first->estimate.value) continue;
+    const EstimateRow shown = estimate_row(first->estimate, std::string(info(first->id).unit));
+    ModelTerm term{row.code, {}, {}};
+    for (const Id id : row.parameters) {
+      if (fit.find(id) != nullptr && std::ranges::find(term.parameters, id) == term.parameters.end()) {
+        term.parameters.push_back(id);
+      }
+    }
+    term.text =
+        fmt::format("{} {}{}", row.words, value_text(shown), shown.interval.empty() ? "" : " " + shown.interval);
+    terms.push_back(std::move(term));
+  }
+  for (const Warning& warning : fit.warnings) {
+    if (warning.code == "hum_fitted") terms.push_back({"hum_fitted", {}, warning.message});
+  }
+  return terms;
+}
+
 namespace {
 
 Json quality_json(const Recording& recording, const Quality& quality) {

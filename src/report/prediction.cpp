@@ -6,10 +6,9 @@
 #include <iterator>
 #include <optional>
 
-#include "core/quantile.hpp"
+#include "core/statistics.hpp"
 #include "report/format.hpp"
 #include "report/json_sections.hpp"
-#include "report/json_values.hpp"
 #include "report/names.hpp"
 #include "report/quantities.hpp"
 #include "report/text_sections.hpp"

@@ -12,7 +12,7 @@
 
 #include "analysis/rules.hpp"
 #include "report/document/check_document.hpp"
-#include "report/document/document_values.hpp"
+#include "report/document/json_node.hpp"
 #include "report/names.hpp"
 #include "report/quantities.hpp"
 #include "report/text_sections.hpp"

@@ -5,10 +5,8 @@
 #include "core/thresholds.hpp"
 #include "signal/events.hpp"
 #include "signal/mains.hpp"
-#include "signal/mask.hpp"
-#include "signal/robust.hpp"
+#include "signal/smoothing.hpp"
 #include "signal/stretch.hpp"
-#include "signal/turning_points.hpp"
 
 namespace slipfit {
 namespace {

@@ -1,12 +1,121 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <optional>
+#include <span>
 #include <vector>
 
-#include "signal/turning_points.hpp"
+#include "signal/smoothing.hpp"
 
 namespace slipfit::signal {
+
+/// A fall between two turning points.
+struct Fall {
+  std::size_t peak = 0;
+  std::size_t trough = 0;
+};
+
+/// Falls of at least `hysteresis`, each bounded by rises of at least as much (or by the ends of the trace). Noise
+/// smaller than the hysteresis makes no turning point, however often it crosses a level. Values come in their order,
+/// one by one or several.
+class TurningPoints {
+ public:
+  explicit TurningPoints(double hysteresis) : hysteresis_(hysteresis) {}
+
+  void add(std::size_t i, double value) {
+    if (falling_) {
+      if (value < lowest_) {
+        lowest_ = value;
+        low_ = i;
+      } else if (value > lowest_ + hysteresis_) {
+        falls_.push_back({high_, low_});
+        falling_ = false;
+        highest_ = value;
+        high_ = i;
+      }
+    } else if (value > highest_) {
+      highest_ = value;
+      high_ = i;
+    } else if (value < highest_ - hysteresis_) {
+      falling_ = true;
+      lowest_ = value;
+      low_ = i;
+    }
+  }
+
+  /// The values `first`, `first` + 1, ...: as each alone, but most are passed over several at once.
+  void add(std::size_t first, std::span<const double> values);
+
+  [[nodiscard]] const std::vector<Fall>& falls() const { return falls_; }
+
+  /// Peaks and troughs in turn, including undecided ones at the end: all that a larger hysteresis can turn at.
+  [[nodiscard]] std::vector<std::size_t> turns() const {
+    std::vector<std::size_t> turns;
+    turns.reserve(2 * falls_.size() + 2);
+    for (const Fall& fall : falls_) turns.insert(turns.end(), {fall.peak, fall.trough});
+    turns.push_back(high_);
+    if (falling_) turns.push_back(low_);
+    return turns;
+  }
+
+ private:
+  double hysteresis_;
+  std::vector<Fall> falls_;
+  std::size_t high_ = 0;
+  std::size_t low_ = 0;
+  double highest_ = -std::numeric_limits<double>::infinity();
+  double lowest_ = 0.0;
+  bool falling_ = false;
+};
+
+/// A turning point of a trace.
+struct Turn {
+  std::size_t at = 0;  ///< place in the trace
+  double value = 0.0;
+};
+
+/// A fall from one turning point to the next.
+struct SeenFall {
+  Turn peak;
+  Turn trough;
+
+  [[nodiscard]] double drop() const { return peak.value - trough.value; }
+};
+
+/// Size of the change a place between two turning points, the second behind the first.
+double rate(const Turn& from, const Turn& to);
+
+/// Rate of the fall itself.
+inline double rate(const SeenFall& fall) {
+  return rate(fall.peak, fall.trough);
+}
+
+/// The falls of one trace at hystereses that grow: each pass goes over the turning points of the one before.
+class Falls {
+ public:
+  /// The falls that exceed noise of this standard deviation.
+  Falls(const Means& trace, double noise);
+
+  /// Highest less lowest value of the trace.
+  [[nodiscard]] double range() const { return range_; }
+  /// The hysteresis that they were found with: noise makes no turning point of 8 standard deviations; rounding errors
+  /// are no motion.
+  [[nodiscard]] double smallest() const { return smallest_; }
+
+  /// Increases the hysteresis; returns false if no turning point is too small, so that the falls are unchanged.
+  bool coarsen(double hysteresis);
+
+  /// Returns the falls larger than a hysteresis in their order; ringing is joined.
+  [[nodiscard]] std::vector<SeenFall> beyond(double hysteresis) const;
+
+ private:
+  [[nodiscard]] TurningPoints turning_points(double hysteresis) const;
+
+  double range_ = 0.0;
+  double smallest_ = 0.0;
+  std::vector<Turn> turns_;
+};
 
 /// Falls of one trace at the time scale that shows them best.
 struct Events {

@@ -3,8 +3,6 @@
 #include <cmath>
 #include <utility>
 
-#include "signal/robust.hpp"
-
 namespace slipfit::signal {
 
 RunningMeans::RunningMeans(std::span<const double> values) : sums_(values.size() + 1, 0.0) {

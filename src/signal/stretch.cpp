@@ -4,9 +4,9 @@
 #include <cmath>
 #include <utility>
 
-#include "core/quantile.hpp"
-#include "core/slip_thresholds.hpp"
-#include "signal/robust.hpp"
+#include "core/statistics.hpp"
+#include "core/thresholds.hpp"
+#include "signal/smoothing.hpp"
 
 namespace slipfit::signal {
 namespace {

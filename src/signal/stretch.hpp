@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/sample_range.hpp"
-#include "signal/turning_points.hpp"
+#include "signal/events.hpp"
 
 namespace slipfit::signal {
 

@@ -9,9 +9,10 @@
 #include <utility>
 
 #include "signal/fftw.hpp"
-#include "signal/turns.hpp"
+#include "slipfit/signal/spectrum.hpp"
 
 namespace slipfit::signal {
+
 namespace {
 
 using Complex = std::complex<double>;
@@ -194,3 +195,18 @@ std::vector<double> hann_power(std::span<const double> values, std::size_t padde
 }
 
 }  // namespace slipfit::signal
+
+namespace slipfit {
+
+Spectrum compute_spectrum(const Recording& recording, const std::vector<bool>& held) {
+  if (held.empty() && recording.clock_is_even()) {
+    const double step = recording.duration_s() / static_cast<double>(recording.size() - 1);
+    const std::size_t length = signal::good_length(recording.size());
+    return {1.0 / (step * static_cast<double>(length)), signal::hann_power(recording.force(), length)};
+  }
+  const signal::UniformTrace trace = signal::resample(recording, held);
+  const std::size_t length = signal::good_length(trace.force.size());
+  return {1.0 / (trace.step_s * static_cast<double>(length)), signal::hann_power(trace.force, length)};
+}
+
+}  // namespace slipfit

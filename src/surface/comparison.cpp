@@ -6,8 +6,8 @@
 #include <cmath>
 #include <memory>
 
-#include "core/student.hpp"
-#include "core/surface_thresholds.hpp"
+#include "core/statistics.hpp"
+#include "core/thresholds.hpp"
 
 namespace slipfit {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "core/word_list.hpp"
 #include "io/cells.hpp"
-#include "surface/readers.hpp"
+#include "surface/read_profile.hpp"
 
 // ISO 25178-71: a header of fixed fields, then NumProfiles rows of NumPoints heights in steps of Zscale.
 

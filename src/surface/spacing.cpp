@@ -1,16 +1,216 @@
 #include "surface/spacing.hpp"
 
 #include <algorithm>
+#include <array>
+#include <boost/math/special_functions/beta.hpp>
 #include <cmath>
+#include <cstddef>
+#include <limits>
 #include <numbers>
 #include <numeric>
+#include <vector>
 
-#include "core/student.hpp"
-#include "core/surface_thresholds.hpp"
+#include "core/statistics.hpp"
+#include "core/thresholds.hpp"
+#include "signal/events.hpp"
 #include "slipfit/core/recording.hpp"
 #include "slipfit/signal/spectrum.hpp"
+#include "surface/filter.hpp"
 
 namespace slipfit::surface {
+
+namespace {
+
+/// 1 + 2 rho: what is left of the variance of a mean of many distances whose neighbours have the correlation rho. The
+/// first is that of a clock: places about even marks, the mean of whose distances they know best.
+constexpr std::array kRemainders = {0.0, 0.03, 0.06, 0.1, 0.2, 0.35, 0.5, 0.75, 1.0, 1.25, 1.5, 1.75, 2.0};
+
+/// Half for a clock, the other half even over the rest.
+double prior_of(std::size_t i) {
+  if (i == 0) return 0.5;
+  const double low = i == 1 ? 0.0 : 0.5 * (kRemainders[i - 1] + kRemainders[i]);
+  const double high = i + 1 == kRemainders.size() ? kRemainders[i] : 0.5 * (kRemainders[i] + kRemainders[i + 1]);
+  return 0.5 * (high - low) / kRemainders.back();
+}
+
+/// Student's t of the mean at one correlation, and how well that correlation explains the data.
+struct Component {
+  double centre = 0.0;
+  double width = 0.0;
+  double log_evidence = 0.0;
+  double weight = 0.0;
+};
+
+/// Generalised least squares with the covariance tridiagonal (rho, 1, rho), factorised on the way.
+Component component(std::span<const double> distances, double rho, double origin, double floor) {
+  double pivot = 1.0;
+  double ones = 1.0;
+  double data = distances[0] - origin;
+  double one_one = 0.0;
+  double one_data = 0.0;
+  double data_data = 0.0;
+  double log_determinant = 0.0;
+  for (std::size_t i = 0;; ++i) {
+    one_one += ones * ones / pivot;
+    one_data += ones * data / pivot;
+    data_data += data * data / pivot;
+    log_determinant += std::log(pivot);
+    if (i + 1 == distances.size()) break;
+    const double factor = rho / pivot;
+    pivot = 1.0 - rho * factor;
+    ones = 1.0 - factor * ones;
+    data = distances[i + 1] - origin - factor * data;
+  }
+  const auto n = static_cast<double>(distances.size());
+  const double rest = std::max(floor, data_data - one_data * one_data / one_one);
+  return {origin + one_data / one_one, std::sqrt(rest / ((n - 2.0) * one_one)),
+          -0.5 * (log_determinant + std::log(one_one) + (n - 2.0) * std::log(rest)), 0.0};
+}
+
+/// One for each remainder, their weights adding up to 1. Without a clock in the spectrum there is none in the places.
+std::vector<Component> mixture_of(std::span<const double> distances, const std::optional<Clock>& clock,
+                                  double miscount) {
+  const auto n = static_cast<double>(distances.size());
+  double origin = 0.0;
+  for (const double d : distances) origin += d / n;
+  const double floor = n * 1e-12 * origin * origin;
+  std::vector<Component> mixture;
+  double best = -std::numeric_limits<double>::infinity();
+  for (const double remainder : kRemainders) {
+    mixture.push_back(component(distances, 0.5 * (remainder - 1.0), origin, floor));
+    best = std::max(best, mixture.back().log_evidence);
+  }
+  double sum = 0.0;
+  for (std::size_t i = 0; i < mixture.size(); ++i) {
+    const bool is_possible = i > 0 || clock;
+    mixture[i].weight = is_possible ? prior_of(i) * std::exp(mixture[i].log_evidence - best) : 0.0;
+    mixture[i].width = std::hypot(mixture[i].width, miscount);
+    sum += mixture[i].weight;
+  }
+  for (Component& c : mixture) c.weight /= sum;
+  if (clock) {
+    mixture.front().centre = clock->spacing;
+    mixture.front().width = clock->standard_error;
+  }
+  return mixture;
+}
+
+double student_below(double t, double freedom) {
+  using Plain = boost::math::policies::policy<boost::math::policies::promote_double<false>>;  // 1e-13 will do
+  const double tail = 0.5 * boost::math::ibeta(0.5 * freedom, 0.5, freedom / (freedom + t * t), Plain());
+  return t < 0.0 ? tail : 1.0 - tail;
+}
+
+double quantile(const std::vector<Component>& mixture, double freedom, double probability) {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -low;
+  for (const Component& c : mixture) {
+    low = std::min(low, c.centre - 100.0 * c.width);
+    high = std::max(high, c.centre + 100.0 * c.width);
+  }
+  for (int step = 0; step < 60; ++step) {
+    const double middle = 0.5 * (low + high);
+    double below = 0.0;
+    for (const Component& c : mixture) {
+      if (c.weight > 1e-9) below += c.weight * student_below((middle - c.centre) / c.width, freedom);
+    }
+    (below < probability ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+}  // namespace
+
+std::optional<MeanSpacing> mean_spacing(std::span<const double> distances, const std::optional<Clock>& clock,
+                                        double miscount) {
+  if (distances.size() < 4) return std::nullopt;
+  const std::vector<Component> mixture = mixture_of(distances, clock, miscount);
+  const double freedom = static_cast<double>(distances.size()) - 2.0;
+  MeanSpacing mean;
+  for (const Component& c : mixture) mean.value += c.weight * c.centre;
+  mean.clock_share = mixture.front().weight;
+  mean.ci95 = {quantile(mixture, freedom, 0.025), quantile(mixture, freedom, 0.975)};
+  mean.standard_error = 0.5 * (mean.ci95.high - mean.ci95.low) / kNormalQuantile;
+  return mean;
+}
+
+namespace {
+
+/// The profile between two cut-offs, on blocks a sixteenth of the shorter.
+struct Band {
+  double block = 1.0;
+  std::vector<double> values;
+
+  [[nodiscard]] double place(double index) const { return (index + 0.5) * block - 0.5; }
+};
+
+Band band_of(std::span<const double> heights, double short_cutoff, double long_cutoff) {
+  const auto block = std::max<std::size_t>(1, static_cast<std::size_t>(short_cutoff / 16.0));
+  Band band{static_cast<double>(block), block_means(heights, block)};
+  band.values = gaussian_mean(band.values, std::max(1.0, short_cutoff / band.block));
+  const std::vector<double> waves = waviness(band.values, long_cutoff / band.block);
+  for (std::size_t i = 0; i < waves.size(); ++i) band.values[i] -= waves[i];
+  return band;
+}
+
+/// Half of the range that holds the middle four fifths of the values, as a swing: a scratch does not count.
+double usual_swing(const std::vector<double>& values) {
+  return quantile_of(values, 0.9) - quantile_of(values, 0.1);
+}
+
+/// Returns the position at which the values cross the midpoint of two turning points.
+double crossing(const std::vector<double>& values, std::size_t from, std::size_t to) {
+  const double middle = 0.5 * (values[from] + values[to]);
+  const bool falls = values[from] > values[to];
+  std::size_t i = from;
+  while (i + 1 < to && (values[i + 1] > middle) == falls) ++i;
+  const double step = values[i + 1] - values[i];
+  return static_cast<double>(i) + (step == 0.0 ? 0.5 : std::clamp((middle - values[i]) / step, 0.0, 1.0));
+}
+
+/// Returns the maximum of the parabola through three values.
+double top(const std::vector<double>& values, std::size_t i) {
+  if (i == 0 || i + 1 >= values.size()) return static_cast<double>(i);
+  const double bend = values[i - 1] - 2.0 * values[i] + values[i + 1];
+  if (bend == 0.0) return static_cast<double>(i);
+  return static_cast<double>(i) + std::clamp(0.5 * (values[i - 1] - values[i + 1]) / bend, -0.5, 0.5);
+}
+
+}  // namespace
+
+Ridges find_ridges(std::span<const double> heights, double smoothed_over, double waves_above) {
+  Ridges ridges;
+  ridges.smoothed_over = smoothed_over;
+  ridges.waves_above = waves_above;
+  const Band band = band_of(heights, smoothed_over, waves_above);
+  if (band.values.size() < 8) return ridges;
+  signal::TurningPoints turning(thresholds::kRidgeSwing * usual_swing(band.values));
+  for (std::size_t i = 0; i < band.values.size(); ++i) turning.add(i, band.values[i]);
+  const auto& falls = turning.falls();
+  for (std::size_t j = 0; j < falls.size(); ++j) {
+    if (falls[j].peak == 0 || falls[j].trough + 1 == band.values.size()) continue;
+    ridges.peaks.push_back(band.place(top(band.values, falls[j].peak)));
+    ridges.valleys.push_back(band.place(top(band.values, falls[j].trough)));
+    ridges.falls.push_back(band.place(crossing(band.values, falls[j].peak, falls[j].trough)));
+    ridges.heights.push_back(band.values[falls[j].peak] - band.values[falls[j].trough]);
+    if (j + 1 < falls.size()) {
+      ridges.rises.push_back(band.place(crossing(band.values, falls[j].trough, falls[j + 1].peak)));
+    }
+  }
+  return ridges;
+}
+
+std::vector<double> distances(std::span<const double> places) {
+  std::vector<double> result;
+  for (std::size_t i = 1; i < places.size(); ++i) result.push_back(places[i] - places[i - 1]);
+  return result;
+}
+
+double variation(std::span<const double> values) {
+  const MeanAndSpread found = describe(values);
+  return values.size() < 2 ? 0.0 : found.sd / std::abs(found.mean);
+}
+
 namespace {
 
 /// The feature whose distances are second in regularity (the first of four is so by luck, too), and what chance has to

@@ -13,7 +13,7 @@
 #include "io/container/formats.hpp"
 #include "io/container/zip_archive.hpp"
 #include "io/message.hpp"
-#include "surface/readers.hpp"
+#include "surface/read_profile.hpp"
 
 #ifdef SLIPFIT_HAS_XLSX
 #include "io/container/xml.hpp"

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/student.hpp"
+#include "core/statistics.hpp"
 
 namespace slipfit {
 namespace {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "analysis/classify.hpp"
-#include "analysis/slip_shape.hpp"
+#include "analysis/detect.hpp"
 #include "checks.hpp"
 #include "core/thresholds.hpp"
 #include "signal/mains.hpp"

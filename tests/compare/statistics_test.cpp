@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "core/student.hpp"
+#include "core/statistics.hpp"
 
 using namespace slipfit;
 using namespace slipfit::comparing;

@@ -1,4 +1,4 @@
-#include "core/quantile.hpp"
+#include "core/statistics.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

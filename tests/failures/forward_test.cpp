@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "model/velocity_track.hpp"
+#include "model/velocity_slip.hpp"
 #include "slipfit/model/motion.hpp"
 #include "slipfit/model/paper.hpp"
 

@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "chart/chart.hpp"
-#include "chart/drawing.hpp"
+#include "chart/svg.hpp"
 #include "run_program.hpp"
 #include "slipfit/figures/figures.hpp"
 #include "tables.hpp"

@@ -6,11 +6,11 @@
 #include <random>
 #include <vector>
 
-#include "core/fit_thresholds.hpp"
+#include "core/thresholds.hpp"
 #include "fit/cycle/start.hpp"
-#include "fit/level/level_order.hpp"
+#include "fit/level/level_terms.hpp"
 #include "fit/problem/block_fit.hpp"
-#include "fit/problem/ramp_residual.hpp"
+#include "fit/problem/normals.hpp"
 
 using namespace slipfit;
 using namespace slipfit::fit;

@@ -1,4 +1,4 @@
-#include "fit/problem/elimination.hpp"
+#include "fit/problem/normals.hpp"
 
 #include <Eigen/Dense>
 #include <catch2/catch.hpp>

@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "core/fit_thresholds.hpp"
+#include "core/thresholds.hpp"
 #include "fit/problem/block_fit.hpp"
 #include "fit/problem/solve.hpp"
 

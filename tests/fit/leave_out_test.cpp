@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "fit/inference/sweep_coordinates.hpp"
-#include "fit/selection/sweep_fit.hpp"
+#include "fit/sweep/sweep_outcome.hpp"
+#include "fit/sweep/sweep_solution.hpp"
 #include "slipfit/signal/cycles.hpp"
 #include "slipfit/signal/quality.hpp"
 #include "sweep_recordings.hpp"

@@ -1,5 +1,5 @@
 // The scatter of a few cycles as a weight in a joint fit.
-#include "fit/inference/moderated.hpp"
+#include "fit/sweep/sweep_data.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

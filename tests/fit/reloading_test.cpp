@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "fit/level/reloading.hpp"
+#include "fit/level/level_model.hpp"
 #include "fit/scene.hpp"
 #include "model/reloading.hpp"
 #include "model/slip.hpp"

@@ -1,12 +1,11 @@
 // One Gauss-Newton step without a stretch of the slips against the refit that it stands for.
 
-#include "fit/inference/segment_influence.hpp"
+#include "fit/inference/uncertainty.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "fit/inference/uncertainty.hpp"
 #include "fit/problem/solve.hpp"
 #include "fit/selection/damped_fit.hpp"
 #include "fit/selection/finish.hpp"

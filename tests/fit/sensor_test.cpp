@@ -1,4 +1,4 @@
-#include "fit/observation/sensor.hpp"
+#include "fit/cycle/sensor.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "fit/law/coulomb.hpp"
-#include "fit/observation/averaged_slip.hpp"
 #include "model/reference_table.hpp"
 #include "scene.hpp"
 

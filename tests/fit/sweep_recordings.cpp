@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "model/velocity_track.hpp"
+#include "model/velocity_slip.hpp"
 
 namespace test {
 namespace {

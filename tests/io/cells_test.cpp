@@ -7,8 +7,6 @@
 #include <random>
 #include <string>
 
-#include "io/decimal.hpp"
-
 using namespace slipfit::reading;
 
 TEST_CASE("plain numbers are the ones of std::from_chars, bit for bit") {

@@ -1,4 +1,4 @@
-#include "io/file_name.hpp"
+#include "io/manifest_draft.hpp"
 
 #include "slipfit/io/manifest_draft.hpp"
 #include "temp_file.hpp"

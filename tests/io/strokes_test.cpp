@@ -2,7 +2,7 @@
 #include <cmath>
 #include <random>
 
-#include "io/sign.hpp"
+#include "io/build.hpp"
 #include "io/strokes.hpp"
 #include "temp_file.hpp"
 

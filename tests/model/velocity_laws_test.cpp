@@ -12,7 +12,6 @@
 
 #include "model/velocity_law.hpp"
 #include "model/velocity_slip.hpp"
-#include "model/velocity_track.hpp"
 #include "slipfit/model/motion.hpp"
 #include "support/velocity_motion.hpp"
 

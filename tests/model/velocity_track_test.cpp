@@ -1,6 +1,6 @@
 // The fit's own dense slip against the exact tiers.
 
-#include "model/velocity_track.hpp"
+#include "model/velocity_slip.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

@@ -5,7 +5,6 @@
 #include <random>
 
 #include "model/slip.hpp"
-#include "model/weakening_track.hpp"
 #include "reference_table.hpp"
 
 using namespace slipfit;

@@ -8,12 +8,11 @@
 #include <utility>
 #include <vector>
 
-#include "core/quantile.hpp"
+#include "core/statistics.hpp"
 #include "differences.hpp"
 #include "model/ageing.hpp"
 #include "predict/critical.hpp"
 #include "predict/draws.hpp"
-#include "predict/motion.hpp"
 #include "slipfit/predict/plan.hpp"
 #include "slipfit/predict/prediction.hpp"
 #include "slipfit/sweep.hpp"

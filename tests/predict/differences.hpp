@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "predict/delta.hpp"
+#include "predict/draws.hpp"
 #include "slipfit/predict/prediction.hpp"
 
 namespace test {

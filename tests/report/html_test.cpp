@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "examples.hpp"
-#include "report/html/markup.hpp"
+#include "report/html/page.hpp"
 
 using Catch::Contains;
 

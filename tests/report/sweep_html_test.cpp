@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "examples.hpp"
-#include "report/html/sweep_figures.hpp"
+#include "report/html/speed_figures.hpp"
 #include "slipfit/report/sweep_html.hpp"
 
 using Catch::Contains;

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "model/phasor.hpp"
 #include "model/slip.hpp"
+#include "model/weakening.hpp"
 
 namespace slipfit {
 namespace {

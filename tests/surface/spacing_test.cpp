@@ -5,9 +5,8 @@
 #include <random>
 
 #include "surface/filter.hpp"
-#include "surface/mean_spacing.hpp"
-#include "surface/ridges.hpp"
-#include "surface/roughness.hpp"
+#include "surface/measure.hpp"
+#include "surface/spacing.hpp"
 #include "surfaces.hpp"
 
 using slipfit::Estimate;

@@ -1,18 +1,38 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "core/parallel.hpp"
 #include "fit/coordinates.hpp"
-#include "fit/observation/sensor.hpp"
+#include "fit/cycle/sensor.hpp"
 #include "slipfit/core/recording.hpp"
+#include "slipfit/fit/result.hpp"
 #include "slipfit/signal/cycles.hpp"
 #include "slipfit/signal/quality.hpp"
 
 namespace slipfit::fit {
+
+/// Returns whether work on so many samples is worth the start of a second thread. Their residuals take 3 ms at the
+/// limit. Below it threads take as long to start and to share the cache as they save.
+inline bool pays_side_by_side(std::size_t samples) {
+  constexpr std::size_t kLarge = 60000;
+  return samples >= kLarge && usable_processors() > 1;
+}
+
+/// Calls f(begin, end) for ranges of neighbouring cycles that together make [0, cycles): side by side where the cycles
+/// have so many samples together that a second thread is worth its start, else once. `f` must not change what another
+/// range reads or writes; sums over cycles are to be formed afterwards, in the order of the cycles.
+template <class F>
+void for_cycles(std::size_t cycles, std::size_t samples, const F& f) {
+  constexpr std::size_t kRanges = 16;  // several for each processor: others may use one of them, too
+  if (cycles == 0) return;
+  for_ranges(cycles, pays_side_by_side(samples) ? 1 + cycles / kRanges : cycles, f);
+}
 
 /// Holds what the cycles of several recordings have in common: each cycle's own onset force and level are draws from
 /// it.
@@ -164,5 +184,42 @@ CycleData thinned(CycleData cycle, double middle_s, double half_period_s, double
 
 /// So many of the cycles, from the first to the last; all where there are no more. `size`: at least 2.
 std::vector<CycleData> spread_subset(const std::vector<CycleData>& cycles, std::size_t size);
+
+/// Holds the times within a stick bin at which a smooth curve gives its mean and its least-squares slope over the
+/// samples of the bin, taken as evenly spread: Gauss's nodes over a width whose centred square is that of the samples.
+class BinNodes {
+ public:
+  struct Node {
+    double time_s = 0.0;
+    double mean = 0.0;         ///< share of the value in the mean
+    double slope_per_s = 0.0;  ///< of the value in the slope
+  };
+
+  explicit BinNodes(const StickBin& bin) {
+    nodes_[0] = {bin.time_s, 1.0, 0.0};
+    if (bin.count < 2.0 || !(bin.time_spread > 0.0)) return;
+    constexpr std::array kPlaces{0.5384693101056831, 0.9061798459386640};
+    constexpr std::array kWeights{0.4786286704993665, 0.2369268850561891};
+    constexpr double kMiddle = 0.5688888888888889;
+    nodes_[0].mean = 0.5 * kMiddle;
+    const double half_s = std::sqrt(3.0 * bin.time_spread / bin.count);
+    for (std::size_t i = 0; i < kPlaces.size(); ++i) {
+      for (const double side : {-1.0, 1.0}) {
+        nodes_[count_++] = {bin.time_s + side * half_s * kPlaces[i], 0.5 * kWeights[i],
+                            side * 1.5 * kWeights[i] * kPlaces[i] / half_s};
+      }
+    }
+  }
+
+  [[nodiscard]] std::span<const Node> nodes() const& { return {nodes_.data(), count_}; }
+  [[nodiscard]] std::span<const Node> nodes() const&& = delete;
+
+ private:
+  std::array<Node, 5> nodes_{};
+  std::size_t count_ = 1;
+};
+
+/// A row for each detected slip, without what a fit adds.
+std::vector<Cycle> detected_cycles(const Recording& recording, const Segmentation& segmentation);
 
 }  // namespace slipfit::fit

@@ -3,12 +3,16 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
 #include <optional>
 
-#include "signal/robust.hpp"
+#include "core/thresholds.hpp"
+#include "fit/level/level_terms.hpp"
+#include "signal/smoothing.hpp"
 
 namespace slipfit::fit {
+
 namespace {
 
 /// Half period from the 80 % to 20 % falls: a half cosine passes them in acos(-0.6) - acos(0.6) of its pi.
@@ -135,6 +139,123 @@ void set_start(BlockFit& fit, const Segmentation& segmentation, const Coordinate
                                 (levels.back() - scales.level) / scales.force};
   }
   if (fit.level().terms > 0) fit.parameters.level = level_through(fit, times_s, levels);
+}
+
+namespace {
+
+/// Returns the variance of the samples about straight sticks.
+double stick_variance(const BlockFit& fit) {
+  double scatter = 0.0;
+  double freedom = 0.0;
+  for (std::size_t i = 0; i < fit.size(); ++i) {
+    for (const auto* bins : {&fit.data(i).bins_before, &fit.data(i).bins_after}) {
+      for (const StickBin& bin : *bins) {
+        scatter += bin.scatter;
+        freedom += std::max(0.0, bin.count - 2.0);
+      }
+    }
+  }
+  return freedom > 0.0 ? scatter / freedom : fit.scales().noise * fit.scales().noise;
+}
+
+struct Slopes {
+  std::vector<double> residual;  ///< unit of force
+  std::vector<double> slope;     ///< of the model, unit of force a second
+};
+
+/// Returns the residuals and slopes of the samples around one slip. The derivative with respect to the onset is minus
+/// that of the force with respect to time.
+Slopes slopes_of(const BlockFit& fit, std::size_t cycle) {
+  const CycleModel& model = fit.model(cycle);
+  std::vector<double> residuals(model.residuals());
+  std::vector<double> jacobian(model.residuals() * model.columns().size());
+  model.evaluate(fit.values(cycle), residuals.data(), jacobian.data());
+  const std::size_t onset = model.columns().common();
+  Slopes result;
+  const CycleData& data = fit.data(cycle);
+  for (std::size_t j = 0; j < data.time_s.size(); ++j) {
+    const double unit = fit.scales().noise / (data.weight.empty() ? 1.0 : data.weight[j]);
+    result.residual.push_back(residuals[j] * unit);
+    result.slope.push_back(jacobian[onset * model.residuals() + j] * unit / fit.scales().half_period_s);
+  }
+  return result;
+}
+
+}  // namespace
+
+std::vector<CycleData> weigh_by_slope(const BlockFit& fit) {
+  const double noise2 = stick_variance(fit);
+  const double rate = std::exp(fit.parameters.values(0)) * fit.scales().speed_m_per_s;
+  std::vector<Slopes> slopes;
+  double excess = 0.0;
+  double weight = 0.0;
+  for (std::size_t i = 0; i < fit.size(); ++i) {
+    slopes.push_back(slopes_of(fit, i));
+    for (std::size_t j = 0; j < slopes[i].slope.size(); ++j) {
+      const double steeper2 = std::max(0.0, slopes[i].slope[j] * slopes[i].slope[j] - rate * rate);
+      excess += steeper2 * (slopes[i].residual[j] * slopes[i].residual[j] - noise2);
+      weight += steeper2 * steeper2;
+    }
+  }
+  const double time_variance = weight > 0.0 ? std::max(0.0, excess / weight) : 0.0;
+  std::vector<CycleData> cycles;
+  for (std::size_t i = 0; i < fit.size(); ++i) {
+    cycles.push_back(fit.data(i));
+    cycles[i].weight.clear();
+    for (const double slope : slopes[i].slope) {
+      const double more = time_variance * std::max(0.0, slope * slope - rate * rate);
+      cycles[i].weight.push_back(std::sqrt(noise2 / (noise2 + more)));
+    }
+  }
+  return cycles;
+}
+
+double half_width_s(double stiffness_N_per_m, const Scales& scales) {
+  const double u = stiffness_N_per_m * scales.speed_m_per_s * scales.half_period_s / std::numbers::pi;
+  return scales.half_period_s * (1.0 - std::atan2(scales.force, u) / std::numbers::pi + 0.3) +
+         shown_beyond_s({scales.sensor_lag_s, scales.sensor_average_s});
+}
+
+LevelModel first_level(const Recording& recording, const Segmentation& segmentation,
+                       const std::vector<CycleData>& cycles, const Scales& scales) {
+  std::vector<double> middles;
+  std::vector<double> drops;
+  for (const CycleData& cycle : cycles) {
+    const DetectedSlip& slip = segmentation.slips[cycle.slip];
+    middles.push_back(0.5 * (slip.peak_force + slip.trough_force));
+    drops.push_back(slip.drop());
+  }
+  const std::vector<double> times_s = middles_s(segmentation, cycles);
+  const std::size_t terms = choose_level_terms(times_s, middles);
+  const double left = unexplained_level(times_s, middles, drops, terms);
+  const bool well_sampled = scales.half_period_s > thresholds::kWellSampled * recording.sample_interval_s();
+  const bool wanders = well_sampled && left > thresholds::kWanderingShare * 2.0 * scales.force &&
+                       left > thresholds::kWanderingNoises * scales.noise && cycles.size() >= kFewestWandering;
+  return {wanders, wanders ? 0 : terms, segmentation.mains_Hz};
+}
+
+std::vector<double> middles_s(const Segmentation& segmentation, const std::vector<CycleData>& cycles) {
+  std::vector<double> values;
+  values.reserve(cycles.size());
+  for (const CycleData& cycle : cycles) values.push_back(segmentation.slips[cycle.slip].middle_s);
+  return values;
+}
+
+std::vector<Coordinates> first_values(double stiffness_N_per_m, const HeldParameters& held, const Scales& scales,
+                                      double step_s) {
+  std::vector<double> stretches{1.0};
+  if (scales.half_period_s < 6.0 * step_s) stretches = {1.0, 1.6, 1.0 / 0.6};
+  // Lag and averaging draw the fall out.
+  const double smoothed_s = std::max(scales.sensor_lag_s, 0.3 * scales.sensor_average_s);
+  if (smoothed_s > 0.05 * scales.half_period_s) stretches = {1.0, 1.4, 2.0};
+  const double zeta = held.damping_ratio.value_or(0.05);
+  std::vector<Coordinates> starts;
+  for (const double stretch : stretches) {
+    const double omega = held.natural_frequency_rad_per_s.value_or(
+        stretch * std::numbers::pi / (scales.half_period_s * std::sqrt(1.0 - zeta * zeta)));
+    starts.push_back(oscillator(std::log(stiffness_N_per_m), std::log(omega), zeta));
+  }
+  return starts;
 }
 
 }  // namespace slipfit::fit

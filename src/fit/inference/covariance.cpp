@@ -5,8 +5,7 @@
 #include <limits>
 #include <optional>
 
-#include "fit/problem/lines.hpp"
-#include "fit/problem/ramp_residual.hpp"
+#include "fit/problem/normals.hpp"
 
 namespace slipfit::fit {
 

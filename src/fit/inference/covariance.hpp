@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "fit/coordinates.hpp"
-#include "fit/inference/normals.hpp"
-#include "fit/problem/solve_options.hpp"
+#include "fit/problem/normals.hpp"
+#include "fit/problem/solve.hpp"
 
 namespace slipfit::fit {
 

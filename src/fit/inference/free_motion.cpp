@@ -7,8 +7,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/fit_thresholds.hpp"
-#include "core/student.hpp"
+#include "core/statistics.hpp"
+#include "core/thresholds.hpp"
 
 namespace slipfit::fit {
 namespace {

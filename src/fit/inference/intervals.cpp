@@ -5,6 +5,7 @@
 #include <cmath>
 
 namespace slipfit::fit {
+
 namespace {
 
 /// Says how far a quantity may be off to either side, both at least 0.

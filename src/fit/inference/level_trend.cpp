@@ -7,12 +7,10 @@
 #include <optional>
 #include <vector>
 
-#include "core/fit_thresholds.hpp"
-#include "core/line_sums.hpp"
-#include "core/quantile.hpp"
-#include "core/student.hpp"
-#include "fit/level/level_order.hpp"
-#include "fit/selection/ramps.hpp"
+#include "core/statistics.hpp"
+#include "core/thresholds.hpp"
+#include "fit/level/level_terms.hpp"
+#include "fit/selection/rise.hpp"
 
 namespace slipfit::fit {
 namespace {

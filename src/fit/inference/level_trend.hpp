@@ -3,8 +3,8 @@
 #include <span>
 
 #include "fit/inference/intervals.hpp"
-#include "fit/problem/sweep_data.hpp"
 #include "fit/selection/solution.hpp"
+#include "fit/sweep/sweep_data.hpp"
 #include "slipfit/core/recording.hpp"
 #include "slipfit/fit/result.hpp"
 

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "fit/coordinates.hpp"
+#include "fit/inference/uncertainty.hpp"
 #include "fit/problem/block_fit.hpp"
 
 namespace slipfit::fit {
@@ -28,5 +30,27 @@ inline constexpr double kFrequencyByAverage = 0.62;
 /// cycles. Ramps count as not joined. Empty where the data do not
 /// determine it, or where it is a parameter of the fit already.
 std::optional<Smoothing> estimate_smoothing(const BlockFit& fit, const Held& held, double sample_interval_s);
+
+/// Recordings as the fitted model would give them, rounded to multiples of `step` with a random offset, noise
+/// (what the residuals have beyond the rounding) included: the same noise from another sample on in each of them, which
+/// takes a quarter of the time. Rounding repeats its errors from cycle to cycle where these are regular: neither
+/// residuals nor the spread over the cycles show it.
+class RoundedCopies {
+ public:
+  /// `model`: fitted force of every sample. Same arguments, same copies.
+  RoundedCopies(std::vector<double> model, double step, double residual_rms);
+  [[nodiscard]] std::vector<double> draw(unsigned copy) const;
+
+ private:
+  std::vector<double> model_;
+  double step_;
+  std::vector<double> noise_;
+};
+
+inline constexpr unsigned kRoundedCopies = 24;
+
+/// The spread of refits to such copies in place of the white-noise covariance, or added to that of the jackknife. Each
+/// row of `moves`: what one refit moves the coordinates by.
+Uncertainty with_rounding(Uncertainty uncertainty, const Moves& moves);
 
 }  // namespace slipfit::fit

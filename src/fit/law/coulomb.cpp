@@ -1,6 +1,6 @@
 #include "fit/law/coulomb.hpp"
 
-#include "model/linear_part.hpp"
+#include "model/weakening.hpp"
 
 namespace slipfit::fit {
 

@@ -7,11 +7,10 @@
 #include <vector>
 
 #include "fit/cycle/cycle_data.hpp"
-#include "fit/observation/averaged_slip.hpp"
-#include "fit/observation/sensor.hpp"
-#include "fit/observation/shown_motion.hpp"
-#include "model/phasor.hpp"
+#include "fit/cycle/sensor.hpp"
+#include "fit/cycle/shown_motion.hpp"
 #include "model/slip.hpp"
+#include "model/weakening.hpp"
 
 namespace slipfit::fit {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "fit/cycle/cycle_data.hpp"
-#include "fit/observation/shown_motion.hpp"
+#include "fit/cycle/shown_motion.hpp"
 #include "model/relaxing.hpp"
 
 namespace slipfit::fit {

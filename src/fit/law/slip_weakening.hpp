@@ -8,9 +8,8 @@
 #include <vector>
 
 #include "fit/cycle/cycle_data.hpp"
-#include "fit/observation/shown_motion.hpp"
+#include "fit/cycle/shown_motion.hpp"
 #include "model/weakening.hpp"
-#include "model/weakening_track.hpp"
 
 namespace slipfit::fit {
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "fit/cycle/cycle_data.hpp"
-#include "fit/observation/shown_motion.hpp"
-#include "model/velocity_track.hpp"
+#include "fit/cycle/shown_motion.hpp"
+#include "model/velocity_slip.hpp"
 
 namespace slipfit::fit {
 

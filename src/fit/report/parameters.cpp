@@ -1,21 +1,153 @@
-#include <fmt/format.h>
+#include "fit/report/parameters.hpp"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <numbers>
 #include <string>
 #include <utility>
+#include <vector>
 
-#include "core/fit_thresholds.hpp"
-#include "core/student.hpp"
+#include "core/statistics.hpp"
+#include "core/thresholds.hpp"
 #include "core/unknown.hpp"
-#include "fit/report/findings.hpp"
-#include "fit/report/model_estimate.hpp"
 #include "fit/selection/tiers.hpp"
 #include "slipfit/core/range.hpp"
 
 namespace slipfit::fit {
+
+Warning averaged_warning(double average_s) {
+  return {"samples_averaged",
+          fmt::format("sensor averaging over {:.3g} ms was included in the fit: state the averaging time with "
+                      "--sensor-average and the mass with --mass if they are known",
+                      1e3 * average_s)};
+}
+
+Warning ripple_warning(const StickRipple& ripple) {
+  if (ripple.speed_share > 1.0) {
+    return {"suspicious_line",
+            fmt::format("oscillation at {:.4g} Hz during stick: pick-up, or an oscillation synchronous with the slips",
+                        ripple.frequency_Hz)};
+  }
+  return {
+      "drive_ripple",
+      fmt::format(
+          "the force in stick oscillates at {:.4g} Hz, as if the driving speed varied by {:.2g} %: the speed at the "
+          "onset of a slip then differs from the mean",
+          ripple.frequency_Hz, 100.0 * ripple.speed_share)};
+}
+
+std::string weak_damping(const Estimate& damping) {
+  const double times = std::pow(4.0 * *damping.standard_error / *damping.value, 2);
+  const std::string known = fmt::format("its standard error is {:.2g}", *damping.standard_error);
+  return times < 100.0 ? fmt::format("{}; {:.2g} times as many cycles, or less noise, would determine it", known, times)
+                       : known + ": it cannot be distinguished from 0";
+}
+
+Parameter held_cutoff(const AgeingCutoff& cutoff, double stick_s) {
+  const std::string why =
+      cutoff.ratio > thresholds::kCutoffStickRatio
+          ? std::string("ageing without a cut-off time explains the recordings as well")
+          : fmt::format("the longest sticks are {:.2g} times as long as the shortest; a ratio of {} is needed",
+                        cutoff.ratio, thresholds::kCutoffStickRatio);
+  const Interval held_s{stick_s * cutoff.held.low, stick_s * cutoff.held.high};
+  const std::string note = fmt::format(
+      "{}; predictions use {:.3g} s, and their bands include the other values that the recordings allow, from 0 to the "
+      "longest stick of {:.3g} s",
+      why, stick_s * cutoff.value, stick_s * cutoff.longest);
+  return {ParameterId::AgeingTime,
+          {0.5 * (held_s.low + held_s.high), std::nullopt, held_s, note},
+          ParameterStatus::Bounded};
+}
+
+namespace {
+
+/// Returns the correlation by the covariance of a model, for the rows and columns `used` (places in kModelParameters).
+Correlation correlation_of(const ModelEstimate& estimate, const std::vector<std::size_t>& used) {
+  Correlation correlation;
+  for (const std::size_t i : used) {
+    correlation.names.emplace_back(info(kModelParameters[i]).key);
+    correlation.matrix.emplace_back();
+    for (const std::size_t j : used) {
+      const double scale = std::sqrt(std::max(0.0, estimate.covariance[i][i] * estimate.covariance[j][j]));
+      correlation.matrix.back().push_back(i == j ? 1.0 : scale > 0.0 ? estimate.covariance[i][j] / scale : 0.0);
+    }
+  }
+  return correlation;
+}
+
+/// Returns one of kModelParameters that the model contains.
+Jet value_of(const SlidingModel& model, ParameterId id) {
+  switch (id) {
+    case ParameterId::Stiffness:
+      return model.stiffness;
+    case ParameterId::NaturalFrequency:
+      return model.omega;
+    case ParameterId::DampingRatio:
+      return model.zeta;
+    case ParameterId::FrictionDifference:
+      return model.difference;
+    case ParameterId::FrictionSlope:
+      return model.slope;
+    case ParameterId::Alpha:
+      return model.alpha;
+    case ParameterId::Ageing:
+      return model.ageing;
+    case ParameterId::AgeingTime:
+      return model.ageing_time;
+    case ParameterId::ReloadForce:
+      return model.reload->force_N;
+    case ParameterId::ReloadLength:
+      return model.reload->length_m;
+    case ParameterId::StiffnessExponent:
+      return model.stiffness_exponent;
+    case ParameterId::Relaxation:
+      return model.relaxation->share;
+    default:
+      return model.relaxation->time_s;
+  }
+}
+
+}  // namespace
+
+std::optional<EstimatedModel> model_of(const Findings& findings, const SlidingModel& model) {
+  const bool damping_known = findings.held[kDamping] || findings.damping_known();
+  const bool resolved =
+      !findings.weakens && findings.slip_unresolved.empty() && !findings.difference_bounds && findings.in_newtons;
+  if (!resolved || !damping_known || !(model.difference.a > 0.0)) return std::nullopt;
+  ModelEstimate estimate{model.stiffness.a, model.omega.a, model.zeta.a, model.difference.a};
+  if (findings.law && findings.law->depends_on_speed) {
+    estimate.speed_dependence = SpeedDependence{model.slope.a, model.alpha.a};
+  }
+  if (findings.law && findings.law->ageing) {
+    estimate.ageing = Ageing{model.ageing.a, findings.units.stick_s, model.ageing_time.a};
+  }
+  if (model.reload) estimate.reloading = Reloading{model.reload->force_N.a, model.reload->length_m.a};
+  if (findings.law && findings.law->stiffness_grows) {
+    estimate.stiffness_trend = StiffnessTrend{model.stiffness_exponent.a, findings.units.speed_m_per_s};
+  }
+  if (model.relaxation) estimate.relaxing = RelaxingSpring{model.relaxation->share.a, model.relaxation->time_s.a};
+  std::vector<std::size_t> used;
+  std::vector<Jet> entering;  // the covariance
+  for (std::size_t i = 0; i < kModelValues; ++i) {
+    const ParameterId id = kModelParameters[i];
+    if (estimate.find(id) == nullptr) continue;
+    used.push_back(i);
+    entering.push_back(enters_as_logarithm(id) ? log(value_of(model, id)) : value_of(model, id));
+  }
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    for (std::size_t j = 0; j < used.size(); ++j) {
+      estimate.covariance[used[i]][used[j]] = findings.intervals.whole_covariance(entering[i], entering[j]);
+    }
+  }
+  estimate.degrees_of_freedom =
+      std::min(findings.intervals.degrees_of_freedom(model.difference), findings.intervals.spread().degrees_of_freedom);
+  estimate.damping_identified = findings.held[kDamping] || findings.damping.ci95->low > 0.0;
+  Correlation correlation = correlation_of(estimate, used);
+  return EstimatedModel{estimate, std::move(correlation)};
+}
+
 namespace {
 
 using Id = ParameterId;

@@ -1,24 +1,131 @@
 #include "fit/report/recording_findings.hpp"
 
 #include <fmt/format.h>
-
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numbers>
+#include <string>
 #include <utility>
 
-#include "core/fit_thresholds.hpp"
+#include "core/thresholds.hpp"
 #include "core/unknown.hpp"
 #include "fit/inference/covariance.hpp"
 #include "fit/inference/level_trend.hpp"
 #include "fit/inference/smoothing.hpp"
-#include "fit/level/mains_hum.hpp"
-#include "fit/report/trend_notes.hpp"
+#include "fit/level/hum.hpp"
 #include "fit/selection/average_term.hpp"
-#include "fit/selection/ramps.hpp"
-#include "fit/selection/rival.hpp"
+#include "fit/selection/rise.hpp"
 #include "fit/selection/stated_mass.hpp"
+#include "fit/selection/tiers.hpp"
+#include "signal/mains.hpp"
 
 namespace slipfit::fit {
+
+namespace {
+
+std::string note_on_stiffness(const TrendFindings& trend) {
+  return fmt::format("the interval of k includes both readings of the trend of the level: k is {:.2g} % {} if {}",
+                     100.0 * std::abs(std::expm1(trend.log_k_to_other)),
+                     trend.log_k_to_other > 0.0 ? "larger" : "smaller",
+                     trend.is_per_cycle ? "the sensor drifts" : "the friction changes");
+}
+
+const char* words_for(LevelReading reading) {
+  switch (reading) {
+    case LevelReading::Sensor:
+      return "the sensor drifts";
+    case LevelReading::Friction:
+      return "the friction changes";
+    default:
+      return "the sensor drifts or the friction changes (--drift sensor or --drift friction states which)";
+  }
+}
+
+/// "rises by 0.2 N/s"; of a sweep, whose recordings have rates of their own, without the number.
+std::string words_for_rate(const LevelTrend& trend, const char* unit) {
+  if (!trend.rate_per_s.value) return "changes over recordings";
+  const double rate = *trend.rate_per_s.value;
+  return fmt::format("{} by {:.3g}{}/s", rate > 0.0 ? "rises" : "falls", std::abs(rate), unit);
+}
+
+}  // namespace
+
+void state_trend(const TrendFindings& trend, const Conditions& conditions, Findings& findings) {
+  const CoordinateMatrix& covariance = findings.intervals.spread().covariance;
+  const auto error_of = [&](Coordinate i) { return std::sqrt(std::max(0.0, covariance(i, i))); };
+  const char* const unit = conditions.quantity == ForceQuantity::Force_N ? " N" : "";
+  std::string of_stiffness;
+  if (std::abs(trend.log_k_to_other) > error_of(kLogStiffness)) of_stiffness = note_on_stiffness(trend);
+  const std::optional<Interval>& range = trend.trend.level_range;
+  if (range && std::max(-range->low, range->high) > findings.units.force * error_of(kLevel)) {
+    findings.level_doubt =
+        fmt::format("a mean: the force level changes by {:.3g}{} over the recording", range->high - range->low, unit);
+  }
+  findings.level_trend = trend.trend;
+  if (trend.is_significant && conditions.drift == LevelReading::None) {
+    findings.warnings.push_back(
+        {"level_trend", fmt::format("the force level {}, although no trend is stated: k and the friction forces are "
+                                    "those of the recording as it is",
+                                    words_for_rate(trend.trend, unit))});
+  }
+  if (of_stiffness.empty() && findings.level_doubt.empty()) return;
+  std::string message =
+      fmt::format("the force level {}: {}", words_for_rate(trend.trend, unit), words_for(trend.trend.reading));
+  if (!of_stiffness.empty()) message += "; " + of_stiffness;
+  findings.warnings.push_back({"level_trend", std::move(message)});
+  if (findings.stiffness_note.empty()) findings.stiffness_note = std::move(of_stiffness);
+}
+
+namespace {
+
+/// Returns the shortest average that the recordings state; 0 if one of them states none.
+double shortest_average_s(std::span<const SweepRecording> recordings) {
+  double shortest_s = HUGE_VAL;
+  for (const SweepRecording& sweep : recordings) {
+    if (sweep.role == SweepRole::LeftOut) continue;
+    shortest_s = std::min(shortest_s, sweep.recording.conditions().sensor_average_s.value_or(0.0));
+  }
+  return std::isfinite(shortest_s) ? shortest_s : 0.0;
+}
+
+/// Returns whether the sensor averages over most of the slip: its shape determines zeta only where the model explains
+/// the rest.
+bool is_hidden(const FitResult& result, std::span<const SweepRecording> recordings) {
+  const bool agree = std::none_of(result.warnings.begin(), result.warnings.end(),
+                                  [](const Warning& warning) { return warning.code == "recordings_disagree"; });
+  const bool explains = agree && !(result.residual.reduced_chi2 > thresholds::kSweepMisfit);
+  if (explains || result.mass_gives_frequency) return false;
+  const std::optional<FittedAverage> found = found_average(result);
+  const double average_s = found ? found->seconds : shortest_average_s(recordings);
+  return average_s * result.natural_frequency().value.value_or(0.0) > thresholds::kHidingAverage;
+}
+
+}  // namespace
+
+std::optional<FittedAverage> found_average(const FitResult& result) {
+  const Parameter* const average = result.find(ParameterId::SensorAverage);
+  if (average == nullptr || average->status == ParameterStatus::Fixed || !average->estimate.value) return std::nullopt;
+  return FittedAverage{*average->estimate.value, average->estimate.standard_error.value_or(0.0)};
+}
+
+bool is_damping_open(const FitResult& result, std::span<const SweepRecording> recordings) {
+  const Parameter* const zeta = result.find(ParameterId::DampingRatio);
+  if (zeta == nullptr || zeta->status != ParameterStatus::Weak || !zeta->estimate.ci95) return false;
+  return is_hidden(result, recordings) || (zeta->estimate.ci95->low <= 0.0 && zeta->estimate.ci95->high >= 1.0);
+}
+
+void report_open_damping(FitResult& result) {
+  for (Parameter& parameter : result.parameters) {
+    if (parameter.id != ParameterId::DampingRatio) continue;
+    const double error = 1.0 / std::sqrt(12.0);  // anything between 0 and 1 is as likely
+    parameter.estimate = {0.0, error, Interval{0.0, 1.0}, "it can lie anywhere between 0 and 1: the fit takes 0"};
+    parameter.status = ParameterStatus::Weak;
+  }
+  if (result.estimate) result.estimate->damping_identified = false;
+  result.conditional_on.emplace_back("a damping ratio of 0, of which the recordings say nothing");
+}
+
 namespace {
 
 /// Returns whether the fit with zeta = 0 is the best one, because the free zeta is below 0.
@@ -313,6 +420,99 @@ Findings findings_of(const Recording& recording, const TierFits& fits, const Res
   findings.load_response = load_response(recording, SlidingModel(values, findings.units).level.a, findings.cycles);
   state_doubts(recording.conditions(), fits, resolution, residual, findings);
   return findings;
+}
+
+FitResult without_parameters(FitResult fit) {
+  for (Parameter& parameter : fit.parameters) {
+    if (parameter.status == ParameterStatus::Fixed) continue;
+    parameter.status = ParameterStatus::Unidentified;
+    parameter.estimate = unknown("the motion is not stick-slip of this model");
+  }
+  fit.correlation.reset();
+  fit.estimate.reset();
+  fit.level_trend = {};
+  constexpr std::array kOfParameters{"level_trend", "samples_averaged", "part_of_cycles_fitted"};
+  std::erase_if(fit.warnings, [&](const Warning& warning) { return std::ranges::count(kOfParameters, warning.code); });
+  for (Warning& warning : fit.warnings) {  // how far off it is says nothing where it is another motion
+    if (warning.code != "model_misfit") continue;
+    warning.message = "the model does not describe the slips: no parameter is determined";
+  }
+  return fit;
+}
+
+FitResult qualified_by_mains(FitResult fit, double frequency_Hz, double duration_s) {
+  const bool hum_found = fit.diagnostics.hum_share > 0.0;
+  const std::optional<double> mains_Hz = signal::mains_in_step(frequency_Hz, hum_found ? 2 : 1, duration_s);
+  if (!mains_Hz) return fit;
+  const std::string reason = fmt::format("in step with {:.0f} Hz mains: hum hides in the cycles", *mains_Hz);
+  fit.warnings.push_back(
+      {"mains_in_step",
+       fmt::format("the cycles ({:.4g} Hz) keep {}{}; another speed or a longer recording sets them apart",
+                   frequency_Hz, reason, hum_found ? "" : ", and is taken to be absent")});
+  for (Parameter& parameter : fit.parameters) {
+    if (!hum_found || parameter.status != ParameterStatus::Identified) continue;
+    parameter.status = ParameterStatus::Weak;
+    parameter.estimate.note = reason;
+  }
+  return fit;
+}
+
+namespace {
+
+bool depends_on_inertia(ParameterId id) {
+  return id == ParameterId::NaturalFrequency || id == ParameterId::Mass || id == ParameterId::DampingRatio ||
+         id == ParameterId::DampingCoefficient;
+}
+
+/// Nothing that rests on the inertia of the slips.
+FitResult without_inertia(FitResult fit, const std::string& reason, double force_drop) {
+  const Interval bounds{0.5 * force_drop, force_drop};
+  for (Parameter& parameter : fit.parameters) {
+    if (parameter.status == ParameterStatus::Fixed) continue;
+    if (depends_on_inertia(parameter.id)) {
+      parameter.status = ParameterStatus::Unidentified;
+      parameter.estimate = unknown(reason);
+    } else if (parameter.id == ParameterId::FrictionDifference) {
+      parameter.status = ParameterStatus::Bounded;
+      parameter.estimate = {0.75 * force_drop, std::nullopt, bounds,
+                            "between half and all of the force drop: " + reason};
+    }
+  }
+  fit.correlation.reset();
+  fit.estimate.reset();
+  return fit;
+}
+
+FitResult with_doubtful_inertia(FitResult fit, const std::string& reason) {
+  for (Parameter& parameter : fit.parameters) {
+    if (!depends_on_inertia(parameter.id)) continue;
+    if (parameter.status == ParameterStatus::Unidentified || parameter.status == ParameterStatus::Fixed) continue;
+    parameter.status = ParameterStatus::Weak;
+    parameter.estimate.note = reason;
+  }
+  return fit;
+}
+
+}  // namespace
+
+FitResult qualified_by_ring_down(FitResult fit, double ring_down_frequency_Hz, double force_drop) {
+  const Estimate natural = fit.natural_frequency();
+  if (!natural.value) return fit;
+  const double slip_Hz = *natural.value / (2.0 * std::numbers::pi);
+  if (slip_Hz > thresholds::kInertialSlip * ring_down_frequency_Hz) return fit;
+  const bool misfits = std::any_of(fit.warnings.begin(), fit.warnings.end(),
+                                   [](const Warning& warning) { return warning.code == "model_misfit"; });
+  const std::string slower =
+      fmt::format("the slips ({:.3g} Hz) are much slower than the free ring-down of the rig ({:.3g} Hz)", slip_Hz,
+                  ring_down_frequency_Hz);
+  if (misfits) {
+    const std::string reason = slower + ", so inertia does not determine them";
+    fit.warnings.push_back({"slips_not_inertial", reason});
+    return without_inertia(std::move(fit), reason, force_drop);
+  }
+  const std::string reason = slower + ": assumes that another body rings";
+  fit.warnings.push_back({"slips_not_inertial", reason});
+  return with_doubtful_inertia(std::move(fit), reason);
 }
 
 }  // namespace slipfit::fit

@@ -6,13 +6,10 @@
 #include <utility>
 #include <vector>
 
-#include "core/fit_thresholds.hpp"
 #include "core/thresholds.hpp"
-#include "fit/inference/sensor_time.hpp"
 #include "fit/inference/smoothing.hpp"
-#include "fit/selection/carried_fit.hpp"
 #include "fit/selection/finish.hpp"
-#include "fit/selection/rival.hpp"
+#include "fit/selection/solution.hpp"
 #include "fit/selection/stated_mass.hpp"
 #include "fit/selection/term_fitter.hpp"
 #include "fit/selection/tiers.hpp"

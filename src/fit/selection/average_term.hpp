@@ -2,7 +2,6 @@
 
 #include <optional>
 
-#include "fit/selection/fit_input.hpp"
 #include "fit/selection/solution.hpp"
 
 namespace slipfit::fit {

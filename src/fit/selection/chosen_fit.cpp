@@ -8,8 +8,8 @@
 #include "fit/selection/average_term.hpp"
 #include "fit/selection/ring_down_fit.hpp"
 #include "fit/selection/rise_term.hpp"
-#include "fit/selection/rival.hpp"
 #include "fit/selection/stated_mass.hpp"
+#include "fit/selection/tiers.hpp"
 #include "fit/selection/weakening_term.hpp"
 
 namespace slipfit::fit {

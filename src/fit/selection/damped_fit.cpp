@@ -5,21 +5,19 @@
 #include <limits>
 #include <utility>
 
-#include "core/fit_thresholds.hpp"
-#include "fit/cycle/clock_weights.hpp"
+#include "core/thresholds.hpp"
 #include "fit/cycle/start.hpp"
-#include "fit/level/hum_search.hpp"
-#include "fit/level/mains_hum.hpp"
+#include "fit/inference/uncertainty.hpp"
+#include "fit/level/hum.hpp"
+#include "fit/level/level_terms.hpp"
 #include "fit/problem/solve.hpp"
-#include "fit/selection/clipping.hpp"
 #include "fit/selection/finish.hpp"
-#include "fit/selection/first_guess.hpp"
 #include "fit/selection/outliers.hpp"
-#include "fit/selection/recut.hpp"
-#include "fit/selection/wandering.hpp"
-#include "signal/robust.hpp"
+#include "fit/selection/tiers.hpp"
+#include "signal/smoothing.hpp"
 
 namespace slipfit::fit {
+
 namespace {
 
 /// Enough cycles to find the shared parameters' neighbourhood; the full fit starts from there.
@@ -275,6 +273,122 @@ std::optional<DampedFit> draft_damped(const FitInput& input, const AbortPredicat
 std::optional<BlockFit> rough_fit(const FitInput& input) {
   if (input.segmentation.slips.size() < thresholds::kFewestSlips) return std::nullopt;
   return Fitter(input, {}).rough();
+}
+
+namespace {
+
+/// Worse than the damped fit by twice what the tiers must differ by: joined ramps would make it worse still.
+bool is_lost(double loose_chi2, const DampedFit& damped) {
+  constexpr double kLost = 20.0;
+  double damped_chi2 = 0.0;
+  for (const double sum : damped.blocks.sums_of_squares()) damped_chi2 += sum;
+  const double worse = (loose_chi2 - damped_chi2) / damped.uncertainty.chi2;
+  return effective_samples(damped) * std::log1p(worse) > kLost;
+}
+
+/// Returns whether the damped fit does not rule zeta = 0 out, and its cycles are where the undamped fit has them.
+bool is_near(const DampedFit& damped) {
+  constexpr double kNear = 2.0;
+  return std::abs(damped.blocks.parameters.values(kDamping)) < kNear * damping_error(damped);
+}
+
+}  // namespace
+
+std::optional<DampedFit> fit_undamped(const DampedFit& damped, bool may_lose) {
+  const BlockFit& from = damped.blocks;
+  BlockFit blocks = from;
+  blocks.parameters.values(kDamping) = 0.0;
+  Held held = damped.held;
+  held[kDamping] = true;
+  bool lost = false;
+  if (!is_near(damped)) {
+    // From a zeta far below 0 the joined ramps hold the cycles where they are, at a false minimum: loose ones first.
+    SolveOptions rough{held, false, true};
+    rough.tolerance = 0.1;
+    const double loose_chi2 = solve(blocks, rough);
+    if (!std::isfinite(loose_chi2)) return std::nullopt;
+    lost = may_lose && is_lost(loose_chi2, damped);
+  }
+  const bool joined = damped.continuous && !lost;
+  if (!lost && !std::isfinite(solve(blocks, {held, joined, true}))) return std::nullopt;
+  DampedFit result{std::move(blocks),   joined,          held, damped.refused_damping,
+                   damped.half_width_s, damped.excluded, {},   damped.misfit};
+  result.uncertainty = estimate_uncertainty(result.blocks, {held, joined});
+  // Where the free zeta lies below 0 by chance, 0 is hardly worse: residuals twice as large are a false minimum.
+  const bool is_false =
+      from.parameters.values(kDamping) < 0.0 && result.uncertainty.noise > 2.0 * damped.uncertainty.noise;
+  return is_false ? std::nullopt : std::optional(std::move(result));
+}
+
+namespace {
+
+std::vector<CycleData> cycles_of(const Cut& cut, const HumLines& hum) {
+  return cut_cycles(cut.recording, cut.segmentation, cut.half_width_s, cut.excluded, hum);
+}
+
+}  // namespace
+
+std::vector<CycleData> same_cycles_of(const BlockFit& fit, std::vector<CycleData> cut) {
+  std::vector<CycleData> same;
+  std::size_t next = 0;
+  for (CycleData& cycle : cut) {
+    while (next < fit.size() && fit.data(next).slip < cycle.slip) ++next;
+    if (next == fit.size() || fit.data(next).slip != cycle.slip) continue;
+    cycle.continuous_with_next = fit.data(next).continuous_with_next;
+    same.push_back(std::move(cycle));
+  }
+  return same;
+}
+
+std::optional<BlockFit> recut(BlockFit fit, const Cut& cut, const std::vector<std::size_t>& bad,
+                              const std::vector<double>& lines_Hz) {
+  const std::vector<double> hum_start = hum_at_other_frequencies(fit, lines_Hz);
+  const Parameters start = std::move(fit.parameters);
+  const Scales scales = fit.scales();
+  LevelModel level = fit.level();
+  std::vector<std::size_t> slips;
+  for (std::size_t i = 0; i < fit.size(); ++i) slips.push_back(fit.data(i).slip);
+  { const BlockFit released = std::move(fit); }
+  std::vector<CycleData> kept;
+  for (CycleData& cycle : cycles_of(cut, {lines_Hz, scales.time_begin_s})) {
+    if (std::find(bad.begin(), bad.end(), cycle.slip) == bad.end()) {
+      kept.push_back(std::move(cycle));
+    } else if (!kept.empty()) {
+      kept.back().continuous_with_next = false;
+    }
+  }
+  level.lines_Hz = lines_Hz;
+  std::vector<double> middles = middles_s(cut.segmentation, kept);
+  std::optional<BlockFit> anew = BlockFit::create(std::move(kept), std::move(middles), scales, level);
+  if (!anew) return std::nullopt;
+  Parameters& parameters = anew->parameters;
+  parameters.values = start.values;
+  const auto before_lines = static_cast<std::ptrdiff_t>(level.terms);
+  std::copy_n(start.level.begin(), before_lines, parameters.level.begin());
+  std::copy(hum_start.begin(), hum_start.end(), parameters.level.begin() + before_lines);
+  std::size_t old = 0;
+  for (std::size_t i = 0; i < anew->size(); ++i) {
+    while (old + 1 < slips.size() && slips[old] < anew->data(i).slip) ++old;  // a last slip may be new
+    parameters.cycles[i] = start.cycles[old];
+  }
+  return anew;
+}
+
+BlockFit with_hum_in_bins(BlockFit fit, const Cut& cut) {
+  std::vector<CycleData> cycles = same_cycles_of(fit, cycles_of(cut, hum_of(cut.recording, fit)));
+  std::vector<double> middles = middles_s(cut.segmentation, cycles);
+  std::optional<BlockFit> same = BlockFit::create(std::move(cycles), std::move(middles), fit.scales(), fit.level());
+  if (!same || same->size() != fit.size()) return fit;
+  same->parameters = std::move(fit.parameters);
+  return *std::move(same);
+}
+
+bool level_wanders(const BlockFit& wandering, const BlockFit& polynomial, const Held& held) {
+  const Uncertainty rich = estimate_uncertainty(wandering, {held, false});
+  const Uncertainty poor = estimate_uncertainty(polynomial, {held, false});
+  const auto extra = static_cast<double>(wandering.size() - polynomial.level().terms);
+  const double noise2 = std::pow(rich.noise / wandering.scales().noise, 2);
+  return (poor.chi2 - rich.chi2) / extra > thresholds::kWanderingRatio * noise2;
 }
 
 }  // namespace slipfit::fit

@@ -7,10 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "core/fit_thresholds.hpp"
-#include "fit/inference/misfit.hpp"
-#include "fit/inference/rounding.hpp"
-#include "fit/inference/segment_influence.hpp"
+#include "core/thresholds.hpp"
+#include "fit/inference/smoothing.hpp"
+#include "fit/inference/uncertainty.hpp"
 #include "fit/problem/solve.hpp"
 #include "fit/selection/outliers.hpp"
 

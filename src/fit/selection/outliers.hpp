@@ -4,6 +4,8 @@
 #include <vector>
 
 #include "fit/problem/block_fit.hpp"
+#include "slipfit/core/recording.hpp"
+#include "slipfit/signal/quality.hpp"
 
 namespace slipfit::fit {
 
@@ -31,5 +33,17 @@ std::vector<std::size_t> find_outliers(const Residuals& residuals, double noise)
 /// Slips (indices into the segmentation) whose mean square residual is more than 25 times the median: a missed slip, a
 /// burst of impulses.
 std::vector<std::size_t> unexplained_slips(const BlockFit& fit);
+
+/// The samples of either list; both are in ascending order, and so is the result.
+std::vector<std::size_t> united(const std::vector<std::size_t>& first, const std::vector<std::size_t>& second);
+
+/// Returns the samples that no model should be asked to explain: impulses, and those at or past a level where the
+/// sensor saturates; in ascending order.
+std::vector<std::size_t> initial_exclusions(const Recording& recording, const Quality& quality);
+
+/// Samples whose model lies where the sensor saturates: keeping those that noise has left below the ceiling, and only
+/// those, would pull the fit down. `noise`: rms, unit of the force.
+std::vector<std::size_t> beyond_clip(const Recording& recording, const Quality& quality, const Residuals& residuals,
+                                     double noise);
 
 }  // namespace slipfit::fit

@@ -7,14 +7,14 @@
 #include <utility>
 #include <vector>
 
-#include "core/fit_thresholds.hpp"
-#include "core/student.hpp"
-#include "fit/inference/sensor_time.hpp"
+#include "core/statistics.hpp"
+#include "core/thresholds.hpp"
 #include "fit/inference/smoothing.hpp"
 #include "fit/problem/solve.hpp"
 #include "fit/selection/average_term.hpp"
-#include "fit/selection/carried_fit.hpp"
 #include "fit/selection/rise.hpp"
+#include "fit/selection/solution.hpp"
+#include "fit/selection/term_fitter.hpp"
 
 namespace slipfit::fit {
 namespace {

@@ -4,10 +4,9 @@
 #include <span>
 
 #include "fit/inference/free_motion.hpp"
-#include "fit/inference/sweep_outcome.hpp"
-#include "fit/problem/sweep_data.hpp"
-#include "fit/selection/fit_input.hpp"
 #include "fit/selection/solution.hpp"
+#include "fit/sweep/sweep_data.hpp"
+#include "fit/sweep/sweep_outcome.hpp"
 #include "slipfit/fit/sweep_recording.hpp"
 
 namespace slipfit::fit {

@@ -4,9 +4,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/fit_thresholds.hpp"
+#include "core/thresholds.hpp"
 #include "fit/selection/finish.hpp"
-#include "fit/selection/ramps.hpp"
 #include "fit/selection/rise.hpp"
 #include "fit/selection/term_fitter.hpp"
 #include "fit/selection/tiers.hpp"

@@ -5,14 +5,29 @@
 #include <string>
 #include <vector>
 
+#include "fit/coordinates.hpp"
 #include "fit/inference/free_motion.hpp"
-#include "fit/inference/misfit.hpp"
 #include "fit/inference/smoothing.hpp"
 #include "fit/inference/uncertainty.hpp"
-#include "fit/level/stick_ripple.hpp"
+#include "fit/level/hum.hpp"
 #include "fit/problem/block_fit.hpp"
+#include "slipfit/core/recording.hpp"
+#include "slipfit/fit/parameter.hpp"
+#include "slipfit/signal/cycles.hpp"
+#include "slipfit/signal/quality.hpp"
 
 namespace slipfit::fit {
+
+/// A recording as its fits see it. What it refers to outlives them.
+struct FitInput {
+  const Recording& recording;
+  const Quality& quality;
+  const Segmentation& segmentation;
+  const HeldParameters& held;  ///< by the user, or by what is known besides the slips
+};
+
+/// The recording, as if it stated that its samples are averaged over this time.
+Recording with_average(const Recording& recording, double average_s);
 
 /// Time over which the instrument averages its samples, as a fit found it.
 struct FittedAverage {
@@ -44,5 +59,19 @@ struct DampedFit {
   std::optional<FreeMotion> motion{};
   std::string law_doubt{};  ///< why the friction law was not the data's choice; empty: it was
 };
+
+/// Standard error of the coordinate kSensorTime.
+double sensor_time_error(const CoordinateMatrix& covariance);
+
+/// The covariance with an error for the unknown shape of the instrument's impulse response: it moves the fitted time of
+/// the sensor, and every coordinate that correlates with it.
+CoordinateMatrix with_unknown_shape(const CoordinateMatrix& covariance, const BlockFit& fit);
+
+/// The average that is a parameter of the fit; empty where it is none.
+std::optional<FittedAverage> average_of(const BlockFit& fit, const CoordinateMatrix& covariance);
+
+/// Returns the fit with the average that is a parameter of it, if it is one, and with what its unknown shape adds to
+/// the covariance.
+DampedFit with_average_error(DampedFit fit);
 
 }  // namespace slipfit::fit

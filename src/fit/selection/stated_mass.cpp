@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "core/fit_thresholds.hpp"
+#include "core/thresholds.hpp"
 #include "fit/problem/solve.hpp"
 #include "fit/selection/finish.hpp"
 #include "fit/selection/rise_term.hpp"

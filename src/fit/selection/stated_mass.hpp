@@ -3,7 +3,6 @@
 #include <cmath>
 #include <optional>
 
-#include "fit/selection/fit_input.hpp"
 #include "fit/selection/solution.hpp"
 
 namespace slipfit::fit {

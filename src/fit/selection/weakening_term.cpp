@@ -12,17 +12,14 @@
 #include <vector>
 
 #include "core/filter_delay.hpp"
-#include "core/fit_thresholds.hpp"
 #include "core/thresholds.hpp"
-#include "fit/inference/misfit.hpp"
-#include "fit/inference/sensor_time.hpp"
 #include "fit/inference/smoothing.hpp"
-#include "fit/problem/sweep_data.hpp"
+#include "fit/inference/uncertainty.hpp"
 #include "fit/selection/average_term.hpp"
-#include "fit/selection/carried_fit.hpp"
-#include "fit/selection/rival.hpp"
+#include "fit/selection/solution.hpp"
 #include "fit/selection/term_fitter.hpp"
 #include "fit/selection/tiers.hpp"
+#include "fit/sweep/sweep_data.hpp"
 
 namespace slipfit::fit {
 namespace {

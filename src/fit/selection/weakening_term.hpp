@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "fit/selection/fit_input.hpp"
+#include "fit/selection/solution.hpp"
 #include "fit/selection/tiers.hpp"
 
 namespace slipfit::fit {

@@ -13,7 +13,7 @@
 #include <utility>
 
 #include "io/arrays/tables.hpp"
-#include "io/container/unpacking_limit.hpp"
+#include "io/container/formats.hpp"
 
 // Files of MATLAB 5 to 7 are elements one after another, each a type, a number of bytes and these bytes. Source:
 // "MAT-File Format", The MathWorks, 2017, chapter 1.

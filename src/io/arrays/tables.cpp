@@ -1,5 +1,5 @@
 #include "io/arrays/tables.hpp"
-#include "io/container/unpacking_limit.hpp"
+#include "io/container/formats.hpp"
 
 #include <algorithm>
 #include <map>

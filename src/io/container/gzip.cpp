@@ -1,5 +1,4 @@
 #include "io/container/formats.hpp"
-#include "io/container/unpacking_limit.hpp"
 
 #ifdef SLIPFIT_HAS_ZIP
 #include <zlib.h>

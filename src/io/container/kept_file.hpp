@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "core/file_handle.hpp"
-#include "io/container/byte_stream.hpp"
+#include "io/container/formats.hpp"
 
 namespace slipfit::reading {
 

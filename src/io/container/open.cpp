@@ -10,7 +10,6 @@
 #include <system_error>
 #include <utility>
 
-#include "io/container/byte_stream.hpp"
 #include "io/container/formats.hpp"
 #include "io/message.hpp"
 

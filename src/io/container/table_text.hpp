@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "io/container/byte_stream.hpp"
+#include "io/container/formats.hpp"
 
 namespace slipfit::reading {
 

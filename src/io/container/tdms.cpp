@@ -1,16 +1,264 @@
+// TDMS, National Instruments' binary files, by "The NI TDMS File Format" (ni.com, white paper 5696): segments of a
+// lead-in, meta data and raw data. Channels of plain numbers and time stamps are read; DAQmx raw data and strings are
+// not.
+
+#include "io/container/tdms.hpp"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-
 #include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstring>
 #include <map>
 #include <utility>
 
 #include "io/container/formats.hpp"
 #include "io/container/table_text.hpp"
-#include "io/container/tdms_segments.hpp"
 #include "io/message.hpp"
 
 namespace slipfit::reading {
+
+namespace {
+
+enum Toc : std::uint32_t {
+  kMeta = 1U << 1U,
+  kNewObjects = 1U << 2U,
+  kRaw = 1U << 3U,
+  kInterleaved = 1U << 5U,
+  kBigEndian = 1U << 6U,
+  kDaqmx = 1U << 7U
+};
+
+constexpr std::uint32_t kString = 0x20;
+constexpr std::uint32_t kNoData = 0xFFFFFFFF;
+constexpr std::uint32_t kFormatChanging = 0x00001269;
+constexpr std::uint32_t kDigitalLine = 0x0000126A;
+
+/// Thrown for files that are truncated or state a wrong size.
+struct Damaged {};
+
+/// Reads from front to end; throws Damaged beyond it.
+class Cursor {
+ public:
+  Cursor(std::string_view bytes, std::endian order) : rest_(bytes), order_(order) {}
+
+  std::string_view bytes(std::uint64_t size) {
+    if (size > rest_.size()) throw Damaged{};
+    const auto taken = rest_.substr(0, static_cast<std::size_t>(size));
+    rest_.remove_prefix(taken.size());
+    return taken;
+  }
+  template <class Number>
+  Number number() {
+    std::string raw(bytes(sizeof(Number)));
+    if (order_ != std::endian::native) std::ranges::reverse(raw);
+    Number value{};
+    std::memcpy(&value, raw.data(), sizeof(Number));
+    return value;
+  }
+  std::string text() { return std::string(bytes(number<std::uint32_t>())); }
+
+ private:
+  std::string_view rest_;
+  std::endian order_;
+};
+
+template <class Number>
+double read_number(Cursor& cursor) {
+  return static_cast<double>(cursor.number<Number>());
+}
+
+double read_time_stamp(Cursor& cursor) {
+  const double fraction = std::ldexp(read_number<std::uint64_t>(cursor), -64);
+  return read_number<std::int64_t>(cursor) + fraction;
+}
+
+struct NumberType {
+  std::uint32_t code = 0;
+  std::size_t bytes = 0;
+  double (*read)(Cursor&) = nullptr;
+};
+
+constexpr std::array kNumberTypes = std::to_array<NumberType>({
+    {1, 1, read_number<std::int8_t>},
+    {2, 2, read_number<std::int16_t>},
+    {3, 4, read_number<std::int32_t>},
+    {4, 8, read_number<std::int64_t>},
+    {5, 1, read_number<std::uint8_t>},
+    {6, 2, read_number<std::uint16_t>},
+    {7, 4, read_number<std::uint32_t>},
+    {8, 8, read_number<std::uint64_t>},
+    {9, 4, read_number<float>},
+    {10, 8, read_number<double>},
+    {0x19, 4, read_number<float>},
+    {0x1A, 8, read_number<double>},
+    {0x21, 1, read_number<std::uint8_t>},
+    {kTdmsTimeStamp, 16, read_time_stamp},
+});
+
+/// Null for what has no fixed size or is no number.
+const NumberType* type_with_code(std::uint32_t code) {
+  const auto* const found =
+      std::ranges::find_if(kNumberTypes, [code](const NumberType& type) { return type.code == code; });
+  return found == kNumberTypes.end() ? nullptr : found;
+}
+
+void append_value(TdmsChannel& channel, Cursor& cursor) {
+  const NumberType* const type = type_with_code(channel.type);
+  if (type == nullptr) throw Damaged{};
+  channel.values.push_back(type->read(cursor));
+}
+
+class TdmsReader {
+ public:
+  explicit TdmsReader(std::string_view file) : file_(file) {}
+
+  /// Throws Damaged.
+  TdmsContent read() {
+    constexpr std::size_t kLeadIn = 28;
+    std::size_t begin = 0;
+    while (begin + kLeadIn <= file_.size()) {
+      const std::string_view lead = file_.substr(begin, kLeadIn);
+      if (!lead.starts_with("TDSm")) throw Damaged{};
+      const auto toc = Cursor(lead.substr(4), std::endian::little).number<std::uint32_t>();
+      const auto order = (toc & kBigEndian) != 0 ? std::endian::big : std::endian::little;
+      Cursor sizes(lead.substr(12), order);
+      const std::uint64_t left = file_.size() - begin - kLeadIn;
+      const std::uint64_t segment = std::min(sizes.number<std::uint64_t>(), left);  // all ones: the writer did not end
+      const auto meta = sizes.number<std::uint64_t>();
+      if (meta > segment) throw Damaged{};
+      const std::string_view body = file_.substr(begin + kLeadIn, static_cast<std::size_t>(segment));
+      Cursor cursor(body.substr(0, static_cast<std::size_t>(meta)), order);
+      if ((toc & kMeta) != 0) read_meta(cursor, toc);
+      if ((toc & kRaw) != 0) read_raw(body.substr(static_cast<std::size_t>(meta)), order, toc);
+      begin += kLeadIn + static_cast<std::size_t>(segment);
+    }
+    left_over_ += file_.size() - begin;
+    return {std::move(channels_), left_over_};
+  }
+
+ private:
+  TdmsChannel& channel_of(const std::string& path) {
+    constexpr std::size_t kMostObjects = 4096;
+    const auto [place, is_new] = index_.emplace(path, channels_.size());
+    if (index_.size() > kMostObjects) throw Damaged{};
+    if (is_new) channels_.push_back({path, {}, {}, 0.0, false, false, false, 0, 0, 0, {}});
+    return channels_[place->second];
+  }
+
+  void read_meta(Cursor& cursor, std::uint32_t toc) {
+    if ((toc & kNewObjects) != 0) {
+      order_.clear();
+      for (TdmsChannel& channel : channels_) channel.has_data = false;
+    }
+    const auto objects = cursor.number<std::uint32_t>();
+    for (std::uint32_t i = 0; i < objects; ++i) {
+      TdmsChannel& channel = channel_of(cursor.text());
+      read_index(cursor, channel);
+      const std::size_t at = index_.at(channel.path);
+      std::erase(order_, at);
+      if (channel.has_data) order_.push_back(at);
+      const auto properties = cursor.number<std::uint32_t>();
+      for (std::uint32_t p = 0; p < properties; ++p) read_property(cursor, channel);
+    }
+  }
+
+  static void read_index(Cursor& cursor, TdmsChannel& channel) {
+    const auto length = cursor.number<std::uint32_t>();
+    channel.has_data = length != kNoData;
+    if (!channel.has_data || length == 0) return;  // 0: as in the segment before
+    channel.is_daqmx = length == kFormatChanging || length == kDigitalLine;
+    channel.type = cursor.number<std::uint32_t>();
+    if (cursor.number<std::uint32_t>() != 1) throw Damaged{};  // one dimension
+    channel.count = cursor.number<std::uint64_t>();
+    if (channel.is_daqmx) {
+      const auto skip_vector = [&](std::uint32_t entry) {
+        (void)cursor.bytes(std::uint64_t{entry} * cursor.number<std::uint32_t>());
+      };
+      skip_vector(channel.type == kNoData ? 20 : 17);
+      skip_vector(4);
+      return;
+    }
+    const NumberType* const type = type_with_code(channel.type);
+    if (type == nullptr && channel.type != kString) throw Damaged{};
+    if (type != nullptr && channel.count > UINT64_MAX / type->bytes) throw Damaged{};
+    channel.bytes = type == nullptr ? cursor.number<std::uint64_t>() : channel.count * type->bytes;
+  }
+
+  static void read_property(Cursor& cursor, TdmsChannel& channel) {
+    const std::string name = cursor.text();
+    const auto type = cursor.number<std::uint32_t>();
+    if (type == kString) {
+      const std::string value = cursor.text();
+      if (name == "unit_string") channel.unit = value;
+      return;
+    }
+    const NumberType* const number = type_with_code(type);
+    if (number == nullptr) throw Damaged{};
+    const double value = number->read(cursor);
+    if (name == "wf_increment" && value > 0.0) channel.increment_s = value;
+    if (name == "wf_start_offset") channel.offset_s = value;
+    if (name == "NI_Number_Of_Scales") channel.is_scaled = value > 0.0;
+  }
+
+  void read_raw(std::string_view raw, std::endian order, std::uint32_t toc) {
+    std::uint64_t block = 0;
+    for (const std::size_t at : order_) {
+      TdmsChannel& channel = channels_[at];
+      channel.is_daqmx = channel.is_daqmx || (toc & kDaqmx) != 0;
+      if (channel.is_daqmx) return;
+      if (channel.bytes > raw.size()) throw Damaged{};
+      block += channel.bytes;
+    }
+    if (block == 0) return;
+    left_over_ += raw.size() % block;
+    Cursor cursor(raw, order);
+    for (std::uint64_t blocks = raw.size() / block; blocks > 0; --blocks) {
+      (toc & kInterleaved) != 0 ? read_interleaved(cursor) : read_in_turn(cursor);
+    }
+  }
+
+  void read_in_turn(Cursor& cursor) {
+    for (const std::size_t at : order_) {
+      TdmsChannel& channel = channels_[at];
+      if (channel.type == kString) {
+        (void)cursor.bytes(channel.bytes);
+        continue;
+      }
+      for (std::uint64_t i = 0; i < channel.count; ++i) append_value(channel, cursor);
+    }
+  }
+
+  void read_interleaved(Cursor& cursor) {
+    const std::uint64_t count = channels_[order_.front()].count;
+    for (const std::size_t at : order_) {
+      if (channels_[at].count != count || channels_[at].type == kString) throw Damaged{};
+    }
+    for (std::uint64_t i = 0; i < count; ++i) {
+      for (const std::size_t at : order_) append_value(channels_[at], cursor);
+    }
+  }
+
+  std::string_view file_;
+  std::vector<TdmsChannel> channels_;
+  std::map<std::string, std::size_t> index_;
+  std::vector<std::size_t> order_;  ///< channels with data in this segment
+  std::uint64_t left_over_ = 0;
+};
+
+}  // namespace
+
+std::optional<TdmsContent> read_tdms(std::string_view file) {
+  TdmsReader reader(file);
+  try {
+    return reader.read();
+  } catch (const Damaged&) {
+    return std::nullopt;
+  }
+}
+
 namespace {
 
 /// "Group" and "Channel" of "/'Group'/'Channel'"; a quote in a name is doubled. Empty where there is no such part.

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "io/container/formats.hpp"
-#include "io/container/unpacking_limit.hpp"
 #include "io/container/zip_archive.hpp"
 #include "io/message.hpp"
 

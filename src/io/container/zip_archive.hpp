@@ -6,7 +6,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "io/container/byte_stream.hpp"
+#include "io/container/formats.hpp"
 
 namespace slipfit::reading {
 

@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "core/quantile.hpp"
+#include "core/statistics.hpp"
 #include "report/document/check_document.hpp"
 #include "report/document/json_node.hpp"
 #include "report/document/prediction_model.hpp"

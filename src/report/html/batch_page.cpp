@@ -12,9 +12,8 @@
 #include "report/batch_html.hpp"
 #include "report/document/check_document.hpp"
 #include "report/html/assets.hpp"
-#include "report/html/markup.hpp"
+#include "report/html/figure.hpp"
 #include "report/html/page.hpp"
-#include "report/html/scaling.hpp"
 #include "report/quantities.hpp"
 
 namespace slipfit {

@@ -3,9 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "report/comparison_text.hpp"
+#include "report/comparison.hpp"
 #include "report/html/figure.hpp"
-#include "report/html/markup.hpp"
 #include "report/html/page.hpp"
 #include "slipfit/report/comparison.hpp"
 

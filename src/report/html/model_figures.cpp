@@ -5,9 +5,8 @@
 #include <limits>
 #include <numeric>
 
-#include "core/quantile.hpp"
+#include "core/statistics.hpp"
 #include "report/html/figure.hpp"
-#include "report/html/scaling.hpp"
 
 namespace slipfit::html {
 namespace {

@@ -4,9 +4,7 @@
 #include <cmath>
 
 #include "report/html/figure.hpp"
-#include "report/html/markup.hpp"
 #include "report/html/page.hpp"
-#include "report/html/scaling.hpp"
 #include "slipfit/report/surface.hpp"
 
 namespace slipfit {

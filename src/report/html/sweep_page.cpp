@@ -6,11 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "core/student.hpp"
-#include "report/html/markup.hpp"
+#include "core/statistics.hpp"
+#include "report/html/figure.hpp"
 #include "report/html/page.hpp"
-#include "report/html/scaling.hpp"
-#include "report/html/sweep_figures.hpp"
+#include "report/html/speed_figures.hpp"
 #include "report/names.hpp"
 #include "report/quantities.hpp"
 #include "report/text_sections.hpp"

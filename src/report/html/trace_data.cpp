@@ -9,10 +9,9 @@
 #include <utility>
 
 #include "core/thresholds.hpp"
-#include "report/html/markup.hpp"
+#include "report/html/figure.hpp"
 #include "report/html/page.hpp"
-#include "report/html/scaling.hpp"
-#include "report/json_values.hpp"
+#include "report/json_sections.hpp"
 
 namespace slipfit::html {
 namespace {

@@ -1,0 +1,73 @@
+#include "core/statistics.hpp"
+
+#include <algorithm>
+#include <boost/math/distributions/students_t.hpp>
+#include <cmath>
+
+namespace slipfit {
+
+namespace {
+
+/// Moves the values for which `is_first` holds to the front and counts them. Every value is moved, whatever it is.
+template <class Predicate>
+std::size_t partition(std::span<double> values, const Predicate& is_first) {
+  std::size_t count = 0;
+  for (double& place : values) {
+    const double value = place;
+    place = values[count];
+    values[count] = value;
+    count += is_first(value) ? std::size_t{1} : 0;
+  }
+  return count;
+}
+
+double median_of_three(double a, double b, double c) {
+  return std::max(std::min(a, b), std::min(std::max(a, b), c));
+}
+
+}  // namespace
+
+double nth_smallest(std::span<double> values, std::size_t index) {
+  constexpr std::size_t kFew = 24;
+  constexpr int kMostRounds = 64;  // pivots that part badly again and again are left to std::nth_element
+  for (int round = 0; values.size() > kFew && round < kMostRounds; ++round) {
+    const double pivot = median_of_three(values.front(), values[values.size() / 2], values.back());
+    const std::size_t below = partition(values, [&](double value) { return value < pivot; });
+    if (index < below) {
+      values = values.first(below);
+      continue;
+    }
+    const std::size_t equal = partition(values.subspan(below), [&](double value) { return value <= pivot; });
+    if (index < below + equal) return pivot;
+    if (below + equal == 0) break;  // the pivot is no number
+    values = values.subspan(below + equal);
+    index -= below + equal;
+  }
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(index);
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+// Boost would work in long double, which takes its time, for digits that no interval needs.
+using StudentsT =
+    boost::math::students_t_distribution<double,
+                                         boost::math::policies::policy<boost::math::policies::promote_double<false>>>;
+
+double t_quantile(double degrees_of_freedom, double probability) {
+  return boost::math::quantile(StudentsT(std::max(1.0, degrees_of_freedom)), probability);
+}
+
+double t_chance(double t, double degrees_of_freedom) {
+  return 2.0 * boost::math::cdf(boost::math::complement(StudentsT(std::max(1.0, degrees_of_freedom)), std::abs(t)));
+}
+
+double students_factor(double degrees_of_freedom) {
+  return t_quantile(std::max(2.0, degrees_of_freedom)) / kNormalQuantile;
+}
+
+Estimate symmetric(double value, double se, double degrees_of_freedom) {
+  const double half = t_quantile(degrees_of_freedom) * se;
+  return {value, se, Interval{value - half, value + half}, {}};
+}
+
+}  // namespace slipfit

@@ -1,0 +1,118 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "fit/problem/block_fit.hpp"
+#include "fit/selection/outliers.hpp"
+#include "slipfit/core/recording.hpp"
+
+namespace slipfit::fit {
+
+/// Samples [begin, end) of neighbouring cycles.
+struct CycleRun {
+  std::size_t begin = 0;
+  std::size_t end = 0;
+  [[nodiscard]] double size() const { return static_cast<double>(end - begin); }
+};
+
+/// Residuals at equal steps of time; 0 where there is none.
+struct EvenRest {
+  std::vector<double> own;  ///< of an uneven clock only
+  std::span<const double> values;
+  std::vector<CycleRun> runs;
+  double step_s = 0.0;
+};
+
+/// Holds what a fit leaves of the samples of its cycles. Residuals of 0 count as absent samples.
+class Rest {
+ public:
+  /// `residuals`: one a sample of the recording, which must outlive this.
+  Rest(const Recording& recording, const BlockFit& fit, std::vector<double> residuals);
+
+  [[nodiscard]] const std::vector<double>& values() const { return values_; }
+  [[nodiscard]] const std::vector<CycleRun>& runs() const { return runs_; }
+  /// 1 / duration.
+  [[nodiscard]] double resolution_Hz() const { return 1.0 / recording_.duration_s(); }
+
+  /// Amplitude^2 of the sine of this frequency that fits best by least squares, at the true times of the samples.
+  [[nodiscard]] double power_at(double frequency_Hz) const;
+  /// The frequency of the largest power within half a resolution.
+  [[nodiscard]] double refined(double frequency_Hz) const;
+
+  /// Returns the residuals for the Fourier transform. On an uneven clock each sample is moved to the nearest step of an
+  /// even one, by half a step at most: exact enough to find a line, not to fit it. The values of an even clock are not
+  /// copied.
+  [[nodiscard]] EvenRest on_even_clock() const;
+
+  /// Adds the fitted interference back.
+  void add_interference(const BlockFit& fit);
+
+ private:
+  const Recording& recording_;
+  std::vector<double> values_;
+  std::vector<CycleRun> runs_;
+};
+
+/// One line in the sticks: a drive that runs unevenly (V (1 + r cos w t) gives a force k V r / w in stick), or pick-up.
+struct StickRipple {
+  double frequency_Hz = 0.0;
+  double force = 0.0;          ///< amplitude, in the column's unit
+  double speed_share = 0.0;    ///< amplitude of the speed that makes it, over the driving speed
+  double log_stiffness = 0.0;  ///< by how much ln k changes where the sticks are fitted with the line
+};
+
+/// The largest line in what a fit leaves of the sticks, between 2.5 and 30 times the slips' frequency. Empty where the
+/// periodogram's largest value is chance (thresholds::kRippleChance), where the line does not last all the stick, or
+/// below `least_force`: steps of the converter make lines of half their height in straight ramps.
+/// `residuals`: of all samples of the recording.
+std::optional<StickRipple> find_stick_ripple(const Recording& recording, const BlockFit& fit,
+                                             const Residuals& residuals, double least_force);
+
+/// Amplitude of the drive's speed that makes a line of this amplitude in stick, over the driving speed.
+double speed_share(const BlockFit& fit, double frequency_Hz, double force);
+
+/// Lines for the next fit.
+struct HumSearch {
+  std::vector<double> lines_Hz;
+  bool others_wait = false;  ///< weaker ones, which the residuals of the next fit show, or show to be images
+};
+
+/// Returns the frequencies of the mains lines that are prominent in the residuals, of the strongest line at another
+/// frequency where it is larger than the noise, and of the line in the sticks, unless they are in step with the slips.
+/// Small hum is masked by the cycles' own spectrum, but not in the residuals. Lines that the fit has already are looked
+/// at again, so that their frequency follows the better fit.
+///
+/// A line that is not fitted yet has images: at multiples of the slips' frequency from it, because cycles take up part
+/// of it in numbers of their own, and near it where there are gaps between the fitted cycles. They go when the line is
+/// fitted. So only lines are taken that are strong next to all other new ones and what is left of the known ones
+/// (thresholds::kHumImage), and that nothing near exceeds by far.
+///
+/// `residuals`: one a sample (Residuals::value), handed over because a long recording has no room for a copy.
+HumSearch find_hum(const Recording& recording, const BlockFit& fit, std::vector<double> residuals,
+                   const std::vector<std::size_t>& outliers, const std::optional<StickRipple>& in_sticks);
+
+/// Returns the frequencies at which the residuals of the fit, as for find_hum, have the lines that it has already.
+std::vector<double> refine_hum(const Recording& recording, const BlockFit& fit, std::vector<double> residuals);
+
+/// Returns the amplitude of all fitted lines together, in the unit of the force; it is 0 without lines.
+double hum_amplitude(const BlockFit& fit);
+/// Returns the amplitude of the fitted lines that belong to the mains, in the unit of the force.
+double mains_amplitude(const BlockFit& fit);
+/// FitDiagnostics::stick_slope_by_lines, of a line through so many seconds.
+double slope_by_lines(const BlockFit& fit, double length_s);
+
+/// Coefficients of the level for lines of these frequencies, where a fit that follows may begin: the lines that `fit`
+/// has come first, in its order, with the same phase in the middle of the recording; others are 0.
+std::vector<double> hum_at_other_frequencies(const BlockFit& fit, const std::vector<double>& frequencies_Hz);
+
+/// Returns whether the fit has lines at these frequencies already, up to a difference that is small against the noise.
+bool is_same_hum(const BlockFit& fit, const std::vector<double>& frequencies_Hz);
+
+/// The largest fitted line that a drive may make: its speed changes by more than thresholds::kRippleShare and never
+/// turns back; not of the mains.
+std::optional<StickRipple> fitted_ripple(const BlockFit& fit);
+
+}  // namespace slipfit::fit

@@ -1,0 +1,138 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "fit/level/hum.hpp"
+#include "fit/sweep/ageing_line.hpp"
+#include "fit/sweep/sweep_data.hpp"
+#include "slipfit/core/estimate.hpp"
+#include "slipfit/core/recording.hpp"
+#include "slipfit/fit/parameter.hpp"
+#include "slipfit/fit/result.hpp"
+
+namespace slipfit::fit {
+
+/// The condition on a speed without a standard error, and which parameters depend on it.
+inline constexpr const char* kStatedSpeed =
+    "the stated driving speed (k, m and c are inversely proportional to it; --speed-uncertainty widens their "
+    "intervals)";
+
+/// States why nothing that is read from the slip is identified where W is fitted.
+inline constexpr const char* kFittedAverage = "assumes that the sensor averages uniformly over the fitted time";
+/// States why a force level is conditional.
+inline constexpr const char* kZeroUnknown =
+    "assumes that the sensor reads 0 without force: state its reading with --zero";
+/// States why F_s - F_k and zeta of one speed are conditional.
+inline constexpr const char* kOneSpeed =
+    "assumes kinetic friction that does not depend on sliding speed; one driving speed cannot test this: fit a sweep";
+
+/// States why w_n and mass that are read from the slips alone are conditional. docs/model.md, section 16.
+inline constexpr const char* kSlipsAlone =
+    "assumes friction and a load that stay the same within a slip (a fall by half of F_s - F_k would make w_n 15 % "
+    "higher): --mass tests this";
+/// States the same where the measured normal force changes within a slip.
+inline constexpr const char* kLoadFollows =
+    "the measured normal force follows the force, and friction with it: m includes this; w_n, zeta and F_s - F_k are "
+    "those of the slips";
+/// States what both depend on, for FitResult::conditional_on.
+inline constexpr const char* kSameWithinSlip = "friction and a load that stay the same within a slip (w_n and m)";
+
+/// States the source of w_n and mass that are not read from the slips.
+inline constexpr const char* kRingDown = "the free ring-down, which was used as data for w_n and zeta";
+inline constexpr const char* kStatedMass = "from the stated mass, because sensor averaging hides w_n";
+
+/// States why the mass is not identified where the force rises after a slip.
+inline constexpr const char* kRiseOfTimeOrDistance =
+    "the rise of the force after a slip may be the relaxation of the contact, whose stiffness in the slip is larger: "
+    "the interval includes both";
+
+/// Warns that an average of the samples is fitted.
+Warning averaged_warning(double average_s);
+
+/// Warns that a line swings in the sticks. It is of the drive, unless that would have to turn back.
+Warning ripple_warning(const StickRipple& ripple);
+
+/// What it would take to know zeta well enough. Its errors fall with the root of the cycles; identified from a quarter
+/// on.
+std::string weak_damping(const Estimate& damping);
+
+/// Returns the cut-off of ageing where the recordings do not determine it: the part of its range that they allow.
+Parameter held_cutoff(const AgeingCutoff& cutoff, double stick_s);
+
+/// Returns the assumptions that the numbers of one recording rest on.
+std::vector<std::string> conditions_of(const Recording& recording, Tier tier);
+
+/// Holds what is known of friction that depends on the speed; only a sweep has it.
+struct LawFindings {
+  bool depends_on_speed = false;
+  std::string reason;                                ///< why it does, or not
+  std::optional<AgeingCutoff> ageing{};              ///< where static friction grows with the stick time
+  std::optional<double> reference_normal_force_N{};  ///< known for all recordings
+  bool stiffness_grows = false;                      ///< with the speed
+  bool at_one_speed = false;                         ///< then no more is known of it than by one recording
+};
+
+/// All that the parameters of a fit are made from, of one recording or a sweep.
+struct Findings {
+  Coordinates values;  ///< zeta >= 0
+  Units units;
+  Intervals intervals;
+  Estimate damping;                            ///< zeta; without value where it is not determined, with the reason
+  Held held{};                                 ///< by the user
+  std::optional<double> free_damping_ratio{};  ///< best zeta where that is negative
+  bool in_newtons = true;
+  bool zero_known = false;  ///< of the sensor
+  std::size_t cycles = 0;
+  double samples_per_slip = 0.0;
+  double sample_interval_s = 0.0;
+  /// States why nothing that is read from the slip is identified; empty: no reason.
+  std::string slip_doubt{};
+  /// States why F_s - F_k(0+) is not identified, for a mean over recordings whose static friction differs, or where
+  /// another law of kinetic friction gives another value; empty: no reason.
+  std::string difference_doubt{};
+  /// Says how far that other law moves F_k(0+) and F_s - F_k(0+), which lengthens their intervals.
+  Coordinates other_law = Coordinates::Zero();
+  /// States why k is not identified, whatever its interval; empty: no reason.
+  std::string stiffness_doubt{};
+  std::string stiffness_note{};
+  std::string level_doubt{};  ///< why absolute forces depend on the part of the recording; empty: they do not
+  LevelTrend level_trend{};
+  std::string frequency_unknown{};  ///< why there is no natural frequency to read from the slips; empty: there is
+  std::optional<double> sensor_average_s{};     ///< stated, in the model
+  std::optional<Estimate> fitted_average{};     ///< s, found by the fit
+  std::string average_unknown{};                ///< why it is unknown whether there is one
+  std::string damping_doubt{};                  ///< why zeta is not identified
+  std::string slip_unresolved{};                ///< why w_n and F_s - F_k cannot be read from the slip; empty: they can
+  std::optional<Interval> difference_bounds{};  ///< all that is known of F_s - F_k
+  std::optional<LawFindings> law{};
+  bool weakens = false;                 ///< friction falls over a slip distance, in the model
+  std::string slip_distance_unknown{};  ///< why D_c was asked for in vain; empty: it was not
+  bool frequency_tested = false;        ///< the slips' w_n agrees with a ring-down or a stated mass
+  std::optional<LoadResponse> load_response{};
+  bool mass_gives_frequency = false;  ///< w_n is held at sqrt(k / m) of the stated mass, whose error the spread holds
+  Warnings warnings{};
+
+  /// Returns the intervals of F_k(0+) and F_s - F_k(0+), which depend on the law below the speeds that were measured.
+  [[nodiscard]] Intervals intervals_at_rest() const {
+    Spread spread = intervals.spread();
+    spread.one_sided.push_back(other_law);
+    return Intervals(std::move(spread));
+  }
+  [[nodiscard]] bool damping_known() const { return damping.value.has_value(); }
+};
+
+/// Fills parameters, correlation and model estimate.
+void report_parameters(const Findings& findings, FitResult& result);
+
+struct EstimatedModel {
+  ModelEstimate estimate;
+  Correlation correlation;
+};
+
+/// For everything that is computed from the fit. Needs all four of k, w_n, zeta and F_s above F_k.
+std::optional<EstimatedModel> model_of(const Findings& findings, const SlidingModel& model);
+
+}  // namespace slipfit::fit

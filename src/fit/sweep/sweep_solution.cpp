@@ -1,0 +1,384 @@
+#include "fit/sweep/sweep_solution.hpp"
+
+#include <algorithm>
+#include <array>
+#include <boost/math/distributions/fisher_f.hpp>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "core/parallel.hpp"
+#include "core/statistics.hpp"
+#include "core/thresholds.hpp"
+#include "fit/inference/covariance.hpp"
+#include "fit/problem/block_fit.hpp"
+#include "fit/problem/solve.hpp"
+#include "signal/smoothing.hpp"
+
+namespace slipfit::fit {
+
+namespace {
+
+constexpr double kSlowestRate = 0.3;  // alpha v_c with which the search for another law begins
+constexpr int kSweepMaxIterations = 50;
+
+/// Residual rows over parameters: each stick bin counts as its two rows, as it does in chi2.
+double residual_freedom(const SweepSolution& solution) {
+  const CommonColumns columns(solution.problem());
+  double freedom = static_cast<double>(columns.held(solution.held).size()) - static_cast<double>(columns.size());
+  if (solution.sweep.sharing.level) freedom += static_cast<double>(solution.sweep.steady.size());
+  for (const BlockFit& recording : solution.recordings) {
+    for (std::size_t c = 0; c < recording.size(); ++c) {
+      freedom += static_cast<double>(recording.model(c).residuals()) - static_cast<double>(recording.columns().own());
+    }
+  }
+  return std::max(1.0, freedom);
+}
+
+SweepSolution moved_by(SweepSolution solution, const NewtonStep& step) {
+  const CommonColumns columns(solution.problem());
+  for (std::size_t r = 0; r < solution.recordings.size(); ++r) {
+    BlockFit& recording = solution.recordings[r];
+    const double time = recording.parameters.values(kSensorTime);
+    columns.visit(r, recording, recording.parameters,
+                  [&](Eigen::Index column, double& value) { value += step.step(column); });
+    constexpr double kMost = 0.5;  // of it, where a step leads to none
+    double& moved = recording.parameters.values(kSensorTime);
+    moved = std::max(kMost * time, moved);
+  }
+  solution.chi2 = step.sum_of_squares;
+  solution.degrees_of_freedom = residual_freedom(solution);
+  return solution;
+}
+
+}  // namespace
+
+std::size_t SweepSolution::cycles() const {
+  std::size_t count = 0;
+  for (const BlockFit& recording : recordings) count += recording.size();
+  return count;
+}
+
+Coordinates SweepSolution::shared() const {
+  Coordinates values = Coordinates::Zero();
+  for (const BlockFit& recording : recordings) {
+    for (const Coordinate coordinate : recording.columns().coordinates()) {
+      if (!is_of_recording(coordinate)) values(coordinate) = recording.parameters.values(coordinate);
+    }
+  }
+  return values;
+}
+
+const BlockFit* SweepSolution::with_sensor_time() const {
+  const auto has_time = [](const BlockFit& recording) { return recording.solves_for(kSensorTime); };
+  const auto found = std::find_if(recordings.begin(), recordings.end(), has_time);
+  return found == recordings.end() ? nullptr : &*found;
+}
+
+std::vector<double> SweepSolution::speeds_m_per_s() const {
+  std::vector<double> speeds;
+  for (const BlockFit& recording : recordings) speeds.push_back(recording.scales().speed_m_per_s);
+  return speeds;
+}
+
+bool SweepSolution::can_show_trend(std::size_t fewest) const {
+  return recordings.size() >= fewest && ratio_of_ends(speeds_m_per_s()) > thresholds::kTrendSpeedRatio;
+}
+
+double solve(SweepSolution& solution, const Held& held, int max_iterations, double tolerance) {
+  return solve_together(solution.recordings, solution.sweep, {held, false, true, max_iterations, tolerance});
+}
+
+std::optional<SweepSolution> at_minimum(SweepSolution solution, const Held& held, double tolerance) {
+  solution.held = held;
+  solution.chi2 = solve(solution, held, kSweepMaxIterations, tolerance);
+  if (!std::isfinite(solution.chi2)) return std::nullopt;
+  solution.degrees_of_freedom = residual_freedom(solution);
+  return solution;
+}
+
+SweepSolution settled(const SweepSolution& solution) {
+  std::optional<SweepSolution> lower = at_minimum(solution, solution.held);
+  return lower && lower->chi2 <= solution.chi2 ? *std::move(lower) : solution;
+}
+
+std::optional<SweepSolution> with_rate(const SweepSolution& solution, double rate) {
+  SweepSolution moved = solution;
+  for (BlockFit& recording : moved.recordings) recording.parameters.values(kFrictionRate) = rate;
+  Held held = solution.held;
+  held[kFrictionRate] = true;
+  return at_minimum(std::move(moved), held);
+}
+
+std::optional<SweepSolution> with_law(const SweepSolution& solution, FrictionLaw law) {
+  SweepSolution other = solution;
+  for (BlockFit& recording : other.recordings) {
+    Scales scales = recording.scales();
+    scales.law = law;
+    recording = recording.with_scales(scales);
+    // The other laws have friction that changes ever less.
+    double& rate = recording.parameters.values(kFrictionRate);
+    rate = std::min(rate, -kSlowestRate);
+  }
+  return at_minimum(std::move(other), solution.held);
+}
+
+std::optional<SweepSolution> with_exponent(SweepSolution solution, const Held& held) {
+  for (BlockFit& recording : solution.recordings) {
+    Scales scales = recording.scales();
+    scales.population->log_speed = std::log(scales.speed_m_per_s / solution.sweep.units.speed_m_per_s);
+    recording = recording.with_scales(scales);
+  }
+  return at_minimum(std::move(solution), held);
+}
+
+std::optional<SweepSolution> with_held(const SweepSolution& solution, Coordinate coordinate, double change) {
+  SweepSolution other = solution;
+  for (BlockFit& recording : other.recordings) recording.parameters.values(coordinate) += change;
+  return at_minimum(std::move(other), solution.held);
+}
+
+std::optional<SweepSolution> with_motion(SweepSolution solution, const FreeMotion& motion) {
+  Held held = solution.held;
+  held[kLogFrequency] = held[kDamping] = true;
+  for (BlockFit& recording : solution.recordings) {
+    recording.parameters.values(kLogFrequency) = motion.values(0);
+    recording.parameters.values(kDamping) = motion.values(1);
+  }
+  return at_minimum(std::move(solution), held);
+}
+
+std::optional<NormalSolution> leave_out(const NormalSolution& all, std::size_t recording) {
+  constexpr double kSmallGain = 1.0;  // in variances of the residuals: a step within the error of all is good
+  const SweepSolution& solution = all.solution;
+  if (solution.recordings.size() < 3) return std::nullopt;
+  NormalSolution others{solution, {}};
+  others.solution.recordings.erase(others.solution.recordings.begin() + static_cast<std::ptrdiff_t>(recording));
+  others.normals = normals_without(solution.problem(), recording, all.normals, others.solution.problem());
+  const NewtonStep step = newton_step(others.solution.problem(), others.normals, solution.held);
+  const double variance = std::max(1.0, solution.chi2 / solution.degrees_of_freedom);
+  if (step.step.allFinite() && step.gain < kSmallGain * variance) {
+    others.solution = moved_by(std::move(others.solution), step);
+    return others;
+  }
+  std::optional<SweepSolution> refitted = at_minimum(std::move(others.solution), solution.held);
+  if (!refitted) return std::nullopt;
+  others.solution = *std::move(refitted);
+  others.normals = normals_of(others.solution.problem());
+  return others;
+}
+
+namespace {
+
+constexpr double kSweepRough = 0.1;
+constexpr double kSweepCompared = 1e-2;  // sums of squares to a hundredth of what a parameter gains by chance
+constexpr int kSweepQuickIterations = 10;
+
+/// The recordings `used` of the sweep, as their own fits left them.
+SweepSolution start_of(const SweepData& data, Sharing sharing, FrictionLaw law, const std::vector<std::size_t>& used) {
+  SweepSolution solution;
+  solution.sweep = {sharing, data.steady, data.units};
+  for (const std::size_t i : used) {
+    const DampedFit& single = *data.single[i];
+    const Scales scales = scales_in_sweep(data, i, law);
+    BlockFit recording(single.blocks.set(), scales);
+    const auto& level = single.blocks.parameters.level;
+    const std::ptrdiff_t skip = single.blocks.level().terms > 0 ? 1 : 0;
+    std::copy(level.begin() + skip, level.end(), recording.parameters.level.begin() + 1);
+    recording.parameters.level[0] = level_of(single) / scales.population->force;
+    recording.parameters.values.segment<4>(kRelaxation) = single.blocks.parameters.values.segment<4>(kRelaxation);
+    recording.parameters.values(kDifference) = mean_onset_force(single) / scales.population->force;
+    recording.parameters.cycles = single.blocks.parameters.cycles;
+    solution.recordings.push_back(std::move(recording));
+  }
+  return solution;
+}
+
+class SweepFitter {
+ public:
+  SweepFitter(const SweepData& data, const HeldParameters& held) : data_(data), fixed_(held) {}
+
+  [[nodiscard]] std::optional<SweepSolution> fit_rig(RigFit kind) const {
+    if (kind != RigFit::Rough) return fit_coulomb({false, false}, kind == RigFit::StiffnessGrows);
+    SweepSolution start = start_of(data_, {false, false}, FrictionLaw::Coulomb, data_.fitted);
+    set_start(start);
+    start.chi2 = solve(start, held_of(fixed_), kSweepQuickIterations, kSweepRough);
+    return std::isfinite(start.chi2) ? std::optional(std::move(start)) : std::nullopt;
+  }
+
+  [[nodiscard]] std::optional<SweepFits> fit() const {
+    constexpr Sharing kAll{true, true};
+    std::optional<SweepSolution> velocity = with_shares({FrictionLaw::Exponential}, kAll);
+    if (!velocity) return std::nullopt;
+    SweepFits fits{*std::move(velocity), std::nullopt};
+    const Sharing shares = fits.velocity.sweep.sharing;
+    std::optional<SweepSolution> coulomb = fit({FrictionLaw::Coulomb}, shares);
+    if (coulomb) {
+      constexpr double kExtra = 2.0;  // slope and rate
+      fits.coulomb_chi2 = coulomb->chi2;
+      fits.p_value = chance(coulomb->chi2 - fits.velocity.chi2, kExtra, fits.velocity);
+      // Friction that depends on the speed may explain levels that differ under Coulomb friction.
+      std::optional<SweepSolution> own = with_shares({FrictionLaw::Coulomb}, shares);
+      const bool shares_less = own && own->sweep.sharing != shares;
+      fits.coulomb = shares_less ? std::move(own) : std::move(coulomb);
+      fits.growing = with_growing_stiffness(*fits.coulomb);
+    }
+    fits.depends_on_speed = fits.p_value < thresholds::kSignificant;
+    return fits;
+  }
+
+ private:
+  struct Kind {
+    FrictionLaw law = FrictionLaw::Coulomb;
+    bool stiffness_grows = false;  ///< with the speed
+  };
+
+  /// Chance of such a gain in chi2 by `extra` parameters (or constraints taken off).
+  static double chance(double gain, double extra, const SweepSolution& rich) {
+    const double ratio = gain / extra / (rich.chi2 / rich.degrees_of_freedom);
+    if (!(ratio > 0.0)) return 1.0;
+    const boost::math::fisher_f_distribution<double> by_chance(extra, rich.degrees_of_freedom);
+    return boost::math::cdf(boost::math::complement(by_chance, ratio));
+  }
+
+  /// Sets the starting values to the medians of the recordings' own fits.
+  void set_start(SweepSolution& solution) const {
+    Coordinates first = Coordinates::Zero();
+    for (const Coordinate i : {kLogStiffness, kLogFrequency, kDamping}) {
+      std::vector<double> values;
+      for (const std::size_t r : data_.fitted) values.push_back(data_.single[r]->blocks.parameters.values(i));
+      first(i) = signal::median(values);
+    }
+    first(kDamping) = std::clamp(first(kDamping), 0.0, 0.3);
+    if (fixed_.stiffness_N_per_m) first(kLogStiffness) = std::log(*fixed_.stiffness_N_per_m);
+    if (fixed_.natural_frequency_rad_per_s) first(kLogFrequency) = std::log(*fixed_.natural_frequency_rad_per_s);
+    if (fixed_.damping_ratio) first(kDamping) = *fixed_.damping_ratio;
+    std::vector<double> levels;
+    std::vector<double> differences;
+    for (const BlockFit& recording : solution.recordings) {
+      levels.push_back(recording.parameters.level[0]);
+      differences.push_back(recording.parameters.values(kDifference));
+    }
+    for (BlockFit& recording : solution.recordings) {
+      recording.parameters.values.head<kOfSlip>() = first.head<kOfSlip>();
+      if (solution.sweep.sharing.level) recording.parameters.level[0] = signal::median(levels);
+      if (solution.sweep.sharing.difference) recording.parameters.values(kDifference) = signal::median(differences);
+    }
+  }
+
+  /// Several rates: a wrong sign of alpha is a minimum of its own.
+  [[nodiscard]] std::optional<SweepSolution> fit_velocity(Sharing sharing) const {
+    const Held held = held_of(fixed_);
+    constexpr std::array kStartRates{-1.0, 1.0, -4.0};
+    std::vector<SweepSolution> starts = in_parallel(kStartRates.size(), [&](std::size_t i) {
+      SweepSolution start = start_of(data_, sharing, FrictionLaw::Exponential, data_.fitted);
+      set_start(start);
+      for (BlockFit& recording : start.recordings) recording.parameters.values(kFrictionRate) = kStartRates[i];
+      Held quick = held;
+      quick[kFrictionRate] = true;
+      start.chi2 = solve(start, quick, kSweepQuickIterations, kSweepRough);
+      return start;
+    });
+    std::optional<SweepSolution> best;
+    for (SweepSolution& start : starts) {
+      if (std::isfinite(start.chi2) && (!best || start.chi2 < best->chi2)) best = std::move(start);
+    }
+    return best ? at_minimum(std::move(*best), held, kSweepCompared) : std::nullopt;
+  }
+
+  [[nodiscard]] std::optional<SweepSolution> fit_coulomb(Sharing sharing, bool grows) const {
+    SweepSolution start = start_of(data_, sharing, FrictionLaw::Coulomb, data_.fitted);
+    set_start(start);
+    return grows ? with_exponent(std::move(start), held_of(fixed_)) : at_minimum(std::move(start), held_of(fixed_));
+  }
+
+  [[nodiscard]] std::optional<SweepSolution> fit(const Kind& kind, Sharing sharing) const {
+    return kind.law == FrictionLaw::Coulomb ? fit_coulomb(sharing, kind.stiffness_grows) : fit_velocity(sharing);
+  }
+
+  /// Sharing as much of `most` as the data agree with: both, then one of the two, else nothing.
+  [[nodiscard]] std::optional<SweepSolution> with_shares(const Kind& kind, Sharing most) const {
+    std::optional<SweepSolution> free = fit(kind, {false, false});
+    if (!free) return free;
+    for (const Sharing sharing : {Sharing{true, true}, Sharing{false, true}, Sharing{true, false}}) {
+      if ((sharing.level && !most.level) || (sharing.difference && !most.difference)) continue;
+      std::optional<SweepSolution> shared = fit(kind, sharing);
+      if (!shared) continue;
+      // With more freedom no fit can be worse: where it is, it had ended in another minimum.
+      if (shared->chi2 < free->chi2) {
+        std::optional<SweepSolution> better = released(*shared);
+        if (better && better->chi2 < free->chi2) free = std::move(better);
+      }
+      if (chance_of_sharing(*shared, *free) > thresholds::kProven) return shared;
+    }
+    return free;
+  }
+
+  /// Returns the fit with k that depends on the speed; empty where one k of all recordings explains them.
+  [[nodiscard]] std::optional<SweepSolution> with_growing_stiffness(const SweepSolution& same) const {
+    const bool may_grow = !fixed_.stiffness_N_per_m && same.can_show_trend(thresholds::kFewestRecordings);
+    if (!may_grow) return std::nullopt;
+    const std::optional<SweepSolution> growing = with_exponent(same, same.held);
+    if (!growing || !(chance(same.chi2 - growing->chi2, 1.0, *growing) < thresholds::kSignificant)) return std::nullopt;
+    return with_shares({FrictionLaw::Coulomb, true}, {true, true});
+  }
+
+  /// Returns the probability of so much more misfit by what the recordings share.
+  [[nodiscard]] double chance_of_sharing(const SweepSolution& shared, const SweepSolution& free) const {
+    const Sharing& sharing = shared.sweep.sharing;
+    const double steady = sharing.level ? static_cast<double>(data_.steady.size()) : 0.0;
+    const double shared_kinds = (sharing.level ? 1.0 : 0.0) + (sharing.difference ? 1.0 : 0.0);
+    const double constraints = static_cast<double>(data_.fitted.size() - 1) * shared_kinds + steady;
+    return chance(shared.chi2 - free.chi2, constraints, free);
+  }
+
+  /// Returns the solution with nothing shared, started from a shared one.
+  [[nodiscard]] static std::optional<SweepSolution> released(const SweepSolution& shared) {
+    SweepSolution free = shared;
+    free.sweep.sharing = {};
+    return at_minimum(std::move(free), shared.held, kSweepCompared);
+  }
+
+  const SweepData& data_;
+  HeldParameters fixed_;
+};
+
+}  // namespace
+
+std::optional<SweepSolution> fit_rig(const SweepData& data, const HeldParameters& held, RigFit kind) {
+  return SweepFitter(data, held).fit_rig(kind);
+}
+
+std::optional<SweepFits> solve_sweep(const SweepData& data, const FitOptions& options) {
+  if (!data.mass) return SweepFitter(data, options.held).fit();
+  constexpr int kMostRounds = 3;
+  constexpr double kSmallChange = 1e-3;  // of ln w_n: k hardly depends on it
+  HeldParameters held = options.held;
+  std::vector<double> logs;
+  for (const std::size_t i : data.fitted) logs.push_back(data.single[i]->blocks.parameters.values(kLogStiffness));
+  double stiffness = std::exp(signal::median(std::move(logs)));
+  const auto log_stiffness = [](const SweepSolution& solution) {
+    return solution.recordings.front().parameters.values(kLogStiffness);
+  };
+  std::optional<SweepFits> fits;
+  for (int round = 0; round < kMostRounds; ++round) {
+    held.natural_frequency_rad_per_s = data.mass->frequency_rad_per_s(stiffness);
+    fits = SweepFitter(data, held).fit();
+    if (!fits) return fits;
+    const SweepSolution& solution = fits->coulomb ? *fits->coulomb : fits->velocity;
+    const double next = std::exp(log_stiffness(solution));
+    if (std::abs(std::log(next / std::exchange(stiffness, next))) < 2.0 * kSmallChange) break;
+  }
+  for (int round = 0; round < kMostRounds && fits->growing; ++round) {
+    const Coordinates& values = fits->growing->recordings.front().parameters.values;
+    const double log_frequency = std::log(data.mass->frequency_rad_per_s(std::exp(log_stiffness(*fits->growing))));
+    const double change = log_frequency - values(kLogFrequency);
+    if (std::abs(change) < kSmallChange) break;
+    fits->growing = with_held(*fits->growing, kLogFrequency, change);
+  }
+  return fits;
+}
+
+}  // namespace slipfit::fit
