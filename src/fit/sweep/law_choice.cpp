@@ -88,18 +88,21 @@ SweepOutcome coulomb_outcome(const SweepData& data, const SweepFits& fits) {
 
 ChosenLaw choose_law(const SweepData& data, SweepFits fits, std::optional<Tier> tier, double speeds) {
   LawChoice choice = tier ? LawChoice{*tier == Tier::Velocity, "asked for by --tier"} : choose_by_chance(fits, speeds);
-  // It fits once without each recording: not for a law that is left.
   std::optional<SweepOutcome> outcome;
   if (choice.velocity || !fits.coulomb) {
     fits.velocity = settled(fits.velocity);
-    outcome.emplace(outcome_of(data, fits.velocity));
+    outcome.emplace(with_left_out(data, fits.velocity));
   }
+  std::optional<SweepOutcome> coulomb;
   if (choice.velocity && !tier && fits.coulomb && is_misfit(fits.velocity)) {
-    SweepOutcome coulomb = coulomb_outcome(data, fits);
-    choice = choose_by_left_out(left_out_error(*outcome), left_out_error(coulomb));
-    if (!choice.velocity) outcome.emplace(std::move(coulomb));
+    coulomb.emplace(coulomb_outcome(data, fits));
+    choice = choose_by_left_out(left_out_error(*outcome), left_out_error(*coulomb));
   }
-  if (!outcome) outcome.emplace(coulomb_outcome(data, fits));
+  if (choice.velocity || !fits.coulomb) {
+    outcome.emplace(with_intervals(data, *std::move(outcome)));
+  } else {
+    outcome.emplace(coulomb ? *std::move(coulomb) : coulomb_outcome(data, fits));
+  }
   std::vector<Candidate> candidates = candidates_of(fits, choice);
   return {*std::move(outcome), std::move(choice), std::move(candidates)};
 }

@@ -420,31 +420,38 @@ bool depends_on_speed(const SweepSolution& solution) {
 
 }  // namespace
 
-SweepOutcome outcome_of(const SweepData& data, const SweepSolution& solution) {
+SweepOutcome with_left_out(const SweepData& data, const SweepSolution& solution) {
   const StaticFriction kind = static_friction_of(solution);
   const NormalSolution normal{solution, normals_of(solution.problem())};
   LeftOut all = fit_of(data, normal, kind);
-  SweepOutcome outcome{
-      solution, kind, all.values, std::move(all.spread), all.reach, leave_out_each(data, normal, kind)};
+  return {solution, kind, all.values, std::move(all.spread), all.reach, leave_out_each(data, normal, kind)};
+}
+
+SweepOutcome with_intervals(const SweepData& data, SweepOutcome outcome) {
+  const SweepSolution& solution = outcome.solution;
+  Spread& spread = outcome.spread;
   if (const BlockFit* averaged = solution.with_sensor_time()) {
-    outcome.spread.covariance = with_unknown_shape(outcome.spread.covariance, *averaged);
+    spread.covariance = with_unknown_shape(spread.covariance, *averaged);
   }
-  if (data.mass || data.motion) outcome.spread.covariance = with_errors_of_held(data, solution, outcome);
-  if (depends_on_speed(solution)) outcome.other_law = other_law(solution, kind);
+  if (data.mass || data.motion) spread.covariance = with_errors_of_held(data, solution, outcome);
+  if (depends_on_speed(solution)) outcome.other_law = other_law(solution, outcome.static_friction);
   outcome.disagree = recordings_disagree(outcome);
   if (outcome.disagree) {
-    Spread& spread = outcome.spread;
     spread.covariance += jackknife_over(outcome.left_out);
     const double fitted =
         solution.recordings.front().solves_for(kStiffnessExponent) ? 2.0 : 1.0;  // of a line, of a mean
     spread.degrees_of_freedom = std::max(1.0, std::min(spread.degrees_of_freedom, count_of(outcome.left_out) - fitted));
   }
   if (outcome.reach.trend) outcome.reach.trend = std::hypot(*outcome.reach.trend, error_beyond(outcome));
-  add_cutoff(solution, kind, outcome.spread);
-  AlongRate along = profile_rate(solution, kind, outcome.values, outcome.spread);
+  add_cutoff(solution, outcome.static_friction, spread);
+  AlongRate along = profile_rate(solution, outcome.static_friction, outcome.values, spread);
   outcome.values = along.best;
-  outcome.spread = std::move(along.spread);
+  spread = std::move(along.spread);
   return outcome;
+}
+
+SweepOutcome outcome_of(const SweepData& data, const SweepSolution& solution) {
+  return with_intervals(data, with_left_out(data, solution));
 }
 
 Spread spread_at(const LeftOut& fit, double speed_m_per_s) {

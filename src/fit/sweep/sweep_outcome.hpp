@@ -72,7 +72,13 @@ struct SweepOutcome {
   bool disagree = false;  ///< the covariance is widened by what leaving out each recording changes
 };
 
-/// Fits once without each recording.
+/// Fits once without each recording. The spread is that of the cycles and of the scatter between recordings alone.
+SweepOutcome with_left_out(const SweepData& data, const SweepSolution& solution);
+
+/// Adds what intervals need besides: other laws of kinetic friction, recordings that disagree, the profile of alpha.
+SweepOutcome with_intervals(const SweepData& data, SweepOutcome outcome);
+
+/// Returns the solution with its intervals.
 SweepOutcome outcome_of(const SweepData& data, const SweepSolution& solution);
 
 /// Returns the spread with the trends of F_s - F_k and k at a speed outside those of the fit.
