@@ -3,7 +3,7 @@
 
 Builds the program once in FOLDER from a copy of this tree in which every threshold can be set by an environment variable, and runs
 the corpora with one threshold at a time divided and multiplied by the factor, so that its rule always or never acts. A corpus is a
-manifest (its groups are fitted together, too) or a folder of make_scenes.py, make_terms.py, make_sweeps.py, or of surface's make_profiles.py.
+manifest (its groups are fitted together, too) or a folder of make.py scenes, make.py terms, make.py sweeps, or of surface's make_profiles.py.
 Thresholds of sweeps meet sweeps only, those of predictions the predictions from their fits, those of surfaces profiles only, all others the rest.
 
 One line a threshold and direction, against the answers without a change: documents that differ in any way; in the kind of motion, or a
@@ -23,7 +23,7 @@ import sys
 
 PROJECT = pathlib.Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(PROJECT / "benchmarks/independent"))
-from evaluate import SHORT, scored  # noqa: E402
+from evaluate import SHORT, score_motion  # noqa: E402
 
 CONSTANT = re.compile(r"inline constexpr ([\w:]+) (k\w+) = ([^;]+);")
 CONVERT = """#include <cstdlib>
@@ -187,15 +187,10 @@ def scores(answers, truths):
         if "speed_m_per_s" not in truth:
             total.update(profile_scores(document, truth))
             continue
-        row = scored({"status": "refused:" + ("reciprocating" if "stroke" in document else "other")} if isinstance(document, str) else document, truth)
-        total["right"] += row["verdict"]
-        total["f"] += (row["freq"] or {}).get("within", 0)
-        total["extra"] += row.get("extra", 0)
-        for symbol in SHORT.values():
-            found = row.get(symbol, {})
-            total["holds"] += found.get("holds") == 1
-            total["misses"] += found.get("holds") == 0
-            total["wrong"] += found.get("wrong", 0)
+        row = score_motion({"status": "refused:" + ("reciprocating" if "stroke" in document else "other")} if isinstance(document, str) else document, truth)
+        held = [value for symbol in SHORT.values() for value in row[symbol]]
+        total.update({"right": sum(row["verdict"]), "f": sum(row["f 5 %"]), "extra": sum(row["extra"]), "holds": sum(held),
+                      "misses": len(held) - sum(held), "wrong": sum(sum(row[symbol + " !!"]) for symbol in SHORT.values())})
     return total
 
 

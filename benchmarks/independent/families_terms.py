@@ -1,5 +1,5 @@
 """Families of the terms that measured recordings ask for, alone and together: an average of the instrument, friction that
-weakens over a slip distance, a rise after slips, a spring that relaxes. Drawn by make_terms.py."""
+weakens over a slip distance, a rise after slips, a spring that relaxes."""
 import math
 
 from scenes import PARAMETERS, Scene, draw_rig, np, truth_of

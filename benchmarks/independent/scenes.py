@@ -1,4 +1,4 @@
-"""Families of simulated recordings with their truth, each drawn from a seed. Used by make_scenes.py.
+"""Families of simulated recordings with their truth, each drawn from a seed. Used by make.py.
 
 A scene is a rig (stiffness, natural frequency, ...) in proportions drawn at random; a family bends one thing in it.
 Rules of the library are set on seeds below 1000 and reported on seeds from 5000 up.

@@ -6,7 +6,7 @@ import dataclasses
 
 import numpy as np
 
-from simulator import Model, simulate
+from simulator import Model, simulate, write_csv
 
 BEYOND = (2.0, 4.0)  # of the fastest recording
 
@@ -416,6 +416,19 @@ def trace(sweep, run):
         return motion.time_s[::fine], measured, None
     follows = 1 + model.load_slope * (motion.force[::fine] - run.kinetic) / run.kinetic
     return motion.time_s[::fine], measured, run.measured_load * (follows + 1e-3 * rng.standard_normal(n))
+
+
+def write(sweep, folder):
+    """The recordings and the manifest, as the person who measured states them."""
+    folder.mkdir(parents=True, exist_ok=True)
+    traces = [trace(sweep, run) for run in sweep.runs]
+    loads = any(run.stated_load for run in sweep.runs)
+    lines = ["id,file,speed_m_per_s" + (",normal_force_N" if loads else "")]
+    for i, run in enumerate(sweep.runs):
+        time_s, force, normal_N = traces[i if run.source is None else run.source]
+        write_csv(folder / f"run{i}.csv", time_s, force, normal_N=normal_N)
+        lines.append(f"run{i},run{i}.csv,{run.stated_speed or run.speed:.9g}" + (f",{run.stated_load:.6g}" if loads else ""))
+    (folder / "manifest.csv").write_text("\n".join(lines) + "\n", encoding="utf-8")
 
 
 def limit_period(model, drop, kinetic, speed):

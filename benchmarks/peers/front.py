@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Accuracy against CPU time for slipfit, reduced slipfit settings, and own implementations of other methods.
 
-front.py SLIPFIT FOLDER [--count N] [--csv FILE] [--scenes A,B]    measures recordings; FOLDER is written by benchmarks/independent/make_scenes.py
-front.py SLIPFIT FOLDER --sweeps [--count N] [--csv FILE]          measures alpha of sweeps; FOLDER is written by make_sweeps.py
+front.py SLIPFIT FOLDER [--count N] [--csv FILE] [--scenes A,B]    measures recordings; FOLDER is written by benchmarks/independent/make.py scenes
+front.py SLIPFIT FOLDER --sweeps [--count N] [--csv FILE]          measures alpha of sweeps; FOLDER is written by make.py sweeps
 front.py --draw FILE[,FILE] --out CHART.svg [--quantities k,alpha] [--scenes A,B] [--coverage]   draws what was measured
 
 The time is CPU time: that of slipfit's command minus that of its start, that of the other methods without reading the

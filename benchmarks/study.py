@@ -1,0 +1,92 @@
+"""What the studies share: command lines, runs of the program, truths of recordings, and tables of counts."""
+import argparse
+import collections
+import concurrent.futures
+import json
+import resource
+import statistics
+import subprocess
+
+
+def parser(description):
+    return argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
+
+
+def run(program, *words, timeout=300):
+    """The document of a command of slipfit; its status is `refused` or `timeout` where there is none."""
+    try:
+        done = subprocess.run([program, *map(str, words), "--json"], capture_output=True, text=True, check=False, timeout=timeout)
+    except subprocess.TimeoutExpired:
+        return {"status": "timeout"}
+    return json.loads(done.stdout) if done.returncode == 0 else {"status": "refused", "message": done.stderr.strip()}
+
+
+def is_answer(document):
+    return document["status"] not in ("refused", "timeout") if "status" in document else True
+
+
+def children_cpu_s():
+    """Processor time of all processes that have ended."""
+    usage = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return usage.ru_utime + usage.ru_stime
+
+
+def timed(*words):
+    """Processor time of a command, and what it prints. A command that fails is an error."""
+    before = children_cpu_s()
+    text = subprocess.run(list(map(str, words)), check=True, capture_output=True, text=True).stdout
+    return children_cpu_s() - before, text
+
+
+def in_parallel(jobs, function, items):
+    """Results in the order of the items. For functions that wait for a program."""
+    with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
+        return list(pool.map(function, items))
+
+
+def read_truths(folder, families=""):
+    """Rows of FOLDER/truth.jsonl, of all families or of these."""
+    with open(folder / "truth.jsonl", encoding="utf-8") as lines:
+        truths = [json.loads(line) for line in lines]
+    return [truth for truth in truths if not families or truth["family"] in families.split(",")]
+
+
+class Row(collections.defaultdict):
+    """What one recording adds to each column of a table."""
+
+    def __init__(self, **values):
+        super().__init__(list)
+        for column, value in values.items():
+            self.add(column, value)
+
+    def add(self, column, value):
+        if value is not None:
+            self[column].append(value)
+
+
+def share(values):
+    return f"{sum(values)}/{len(values)}" if values else "-"
+
+
+def total(values):
+    return f"{sum(values)}"
+
+
+def median(values):
+    return f"{statistics.median(values):.3g}" if values else "-"
+
+
+def counts(values):
+    return " ".join(f"{name}:{count}" for name, count in sorted(collections.Counter(values).items()))
+
+
+def print_table(columns, groups, name="family", whole="all"):
+    """A line for each group of rows, and one for all. `columns`: how the values of each are summed up. Columns that no row has are left out."""
+    rows = [row for group in groups.values() for row in group]
+    columns = {column: how for column, how in columns.items() if any(row[column] for row in rows)}
+    lines = [[name, *columns]]
+    for group, members in [*groups.items(), *([(whole, rows)] if whole else [])]:
+        lines.append([str(group), *(how([value for row in members for value in row[column]]) for column, how in columns.items())])
+    widths = [max(map(len, column)) for column in zip(*lines)]
+    for cells in lines:
+        print(cells[0].ljust(widths[0]), *(cell.rjust(width) for cell, width in zip(cells[1:], widths[1:])))
