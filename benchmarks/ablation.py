@@ -3,7 +3,7 @@
 
 Builds the program once in FOLDER from a copy of this tree in which every threshold can be set by an environment variable, and runs
 the corpora with one threshold at a time divided and multiplied by the factor, so that its rule always or never acts. A corpus is a
-manifest (its groups are fitted together, too) or a folder of make.py scenes, make.py terms, make.py sweeps, or of surface's make_profiles.py.
+manifest (its groups are fitted together, too) or a folder of make.py scenes, make.py terms, make.py sweeps, or of surface's profiles.py.
 Thresholds of sweeps meet sweeps only, those of predictions the predictions from their fits, those of surfaces profiles only, all others the rest.
 
 One line a threshold and direction, against the answers without a change: documents that differ in any way; in the kind of motion, or a

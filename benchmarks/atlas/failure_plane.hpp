@@ -16,7 +16,7 @@ enum class Mark {
   Wrong     ///< the answer is wrong, and the method does not warn
 };
 
-/// A plane of two factors over which methods are compared; draw_failures.py holds its title and labels.
+/// A plane of two factors over which methods are compared; draw.py holds its title and labels.
 struct Plane {
   std::string name;
   std::vector<double> x, y;
