@@ -368,7 +368,7 @@ LOOKS = {  # method: (colour, marker, line)
 FACTORS = {"noise": "noise, rms" + DROP, "jitter": "scatter of F$_s$" + DROP, "drift": "drift over the recording" + DROP, "hum": "50 Hz amplitude" + DROP,
            "cycles": "cycles", "samples": "samples in a slip"}
 PERIOD, WAVE = "relative error of the period", "rms error of the waveform / its rms"
-USUAL = "usual: 40 cycles, 20 samples per slip, noise of 0.02 of the drop"
+USUAL = "usually 40 cycles, 20 samples per slip, noise of 0.02 of the drop"
 
 
 def series_of(rows, x, y):
@@ -400,7 +400,8 @@ def draw_panels(file, title, panels):
 
 def with_front(series, usual=None):
     points = usual or [point for mine in series.values() for point in mine]
-    return {"Pareto front": staircase(points), **series} if points else series
+    front = staircase(points)
+    return {"Pareto front": [*front, (max(x for x, _ in points), front[-1][1])], **series} if points else series
 
 
 def draw_forward(folder, out):
@@ -426,7 +427,7 @@ def draw_frequency(folder, out):
         mine = [row for row in rows if row["factor"] == factor]
         bound = sorted({(float(row["value"]), float(row["bound"])) for row in mine})
         panels.append((FACTORS[factor], "relative error of the frequency", {"bound": bound, **series_of(mine, "value", "relative_error")}))
-    draw_panels(out / "frequency_factors.svg", f"Frequency: size of 68 % of the errors; {USUAL}", panels)
+    draw_panels(out / "frequency_factors.svg", f"Frequency: size of 68 % of the errors,\n{USUAL}", panels)
 
 
 def draw_fits(folder, out):
@@ -449,9 +450,9 @@ def draw_fits(folder, out):
         errors.append((FACTORS[factor], "relative error of ω$_n$", {"bound": bound, **series_of(of_omega, "value", "relative_error")}))
         coverage.append((FACTORS[factor], "coverage of the intervals of ω$_n$", series_of(of_omega, "value", "coverage")))
         wrong.append((FACTORS[factor], "share of confidently wrong fits", {method: list(shares.items()) for method, shares in largest.items()}))
-    draw_panels(out / "fit_factors.svg", f"Fits: size of 68 % of the errors of ω$_n$; {USUAL}", errors)
-    draw_panels(out / "fit_coverage.svg", f"Fits: coverage of the 95 % intervals; {USUAL}", coverage)
-    draw_panels(out / "fit_wrong.svg", "Fits that are called identified and are more than 4 standard errors and 2 % off, worst parameter", wrong)
+    draw_panels(out / "fit_factors.svg", f"Fits: size of 68 % of the errors of ω$_n$,\n{USUAL}", errors)
+    draw_panels(out / "fit_coverage.svg", f"Fits: coverage of the 95 % intervals of ω$_n$,\n{USUAL}", coverage)
+    draw_panels(out / "fit_wrong.svg", "Fits that are called identified and are off by more than\n4 standard errors and 2 %, for the worst parameter", wrong)
 
 
 def draw_atlas(given):

@@ -51,7 +51,7 @@ std::string over(const Plane& plane, double Factors::*x, double Factors::*y, con
                  std::size_t trials) {
   std::string rows;
   for (const FitMethod& method : methods) {
-    rows += judge_plane(plane, method.look.name, [&](double at_x, double at_y) {
+    rows += judge_plane(plane, method.name, [&](double at_x, double at_y) {
       Factors factors;
       factors.*x = at_x;
       factors.*y = at_y;
@@ -80,7 +80,7 @@ std::string false_minima(Effort effort, std::size_t trials) {
   const FitMethod blocks = fit_methods()[4];
   std::vector<Mark> own;
   for (const double cycles : plane.y) own.push_back(judged(blocks, cycles));
-  return rows + judge_plane(plane, blocks.look.name, [&](double, double cycles) {
+  return rows + judge_plane(plane, blocks.name, [&](double, double cycles) {
            const auto at = std::find(plane.y.begin(), plane.y.end(), cycles);
            return own[static_cast<std::size_t>(at - plane.y.begin())];
          });

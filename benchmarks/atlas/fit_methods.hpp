@@ -27,7 +27,7 @@ struct TimedFit {
   double time_s = 0.0;
 };
 struct FitMethod {
-  Look look;
+  std::string name;
   std::function<TimedFit(const Factors&, std::uint64_t seed)> run;
 };
 
