@@ -4,7 +4,7 @@ slipfit (benchmarks/independent).
 
 strokes: reciprocating tests, what `fit --strokes` says against the truth; --slips in a stroke. rest: runs that begin at rest, with a load: how
 often the intervals of coefficients.static_first_peak and coefficients.static_mean_peak hold the F_s of the first slip and its mean. segments:
-five speeds one after another, as one file (`fit --segments`) and as five (`fit --joint`). Needs numpy and gcc."""
+five speeds one after another, as one file (`fit --segments`) and as five (`fit --joint`). Needs numpy and g++."""
 import argparse
 import collections
 import json

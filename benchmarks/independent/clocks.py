@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """clocks.py SLIPFIT [--count 30] [--seed 1]: how often the 95 % interval of k contains the truth where a recording with
 interference of the mains has lost a sample, or its clock is uneven or rounded. 10 001 samples at 5 kHz, about 50 slips;
-simulated by simulator.c. A row of the table for each clock, a column for each amplitude of the interference, in N (the
+simulated by simulator.cpp. A row of the table for each clock, a column for each amplitude of the interference, in N (the
 noise is 0.015 N rms, the friction drop 1 N)."""
 import argparse
 import json

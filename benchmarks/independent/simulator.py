@@ -1,4 +1,4 @@
-"""The simulator of simulator.c for Python: compiled on first use, shares no code with slipfit. Needs numpy and gcc."""
+"""The simulator of simulator.cpp for Python: compiled on first use, shares no code with slipfit. Needs numpy and g++."""
 import ctypes
 import dataclasses
 import hashlib
@@ -8,7 +8,7 @@ import tempfile
 
 import numpy as np
 
-SOURCE = pathlib.Path(__file__).with_name("simulator.c")
+SOURCE = pathlib.Path(__file__).with_name("simulator.cpp")
 SLIP = np.dtype([("onset_s", float), ("end_s", float), ("onset_force", float), ("end_force", float)])
 DOUBLES = np.ctypeslib.ndpointer(float, flags="C_CONTIGUOUS")
 
@@ -27,11 +27,11 @@ class Course(ctypes.Structure):
 
 
 def load():
-    digest = hashlib.sha1(SOURCE.read_bytes()).hexdigest()[:12]
+    digest = hashlib.sha1(SOURCE.read_bytes() + SOURCE.with_suffix(".hpp").read_bytes()).hexdigest()[:12]
     library = pathlib.Path(tempfile.gettempdir()) / f"slipfit_simulator_{digest}.so"
     if not library.exists():
         made = library.with_suffix(f".{id(digest)}")
-        subprocess.run(["gcc", "-O2", "-shared", "-fPIC", "-o", made, SOURCE, "-lm"], check=True)
+        subprocess.run(["g++", "-O2", "-std=c++20", "-shared", "-fPIC", "-o", made, SOURCE], check=True)
         made.rename(library)
     return ctypes.CDLL(str(library))
 
