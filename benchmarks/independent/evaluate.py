@@ -40,13 +40,15 @@ from study import Row, counts, in_parallel, is_answer, median, parser, print_tab
 
 SHORT = {"stiffness_N_per_m": "k", "friction_difference_N": "dF", "natural_frequency_rad_per_s": "w_n", "damping_ratio": "zeta",
          "mass_kg": "m", "sensor_average_s": "T_b", "slip_distance_m": "D_c", "reload_force_N": "A", "reload_length_m": "l"}
+ALSO = {"kinetic_friction_N": "F_k", "alpha_s_per_m": "alpha", "static_first_peak": "mu_first", "static_mean_peak": "mu_mean"}  # where known
 TERMS = ("sensor_average_s", "slip_distance_m", "reload_force_N")
 NO_SLIPS = {"oscillatory_slip", "undetermined", "steady_sliding"}
-RIGHT = {"stick_slip": {"stick_slip"}, "reciprocating": {"stick_slip"}, "steady": {"steady_sliding"}, "wave": NO_SLIPS, "ringdown": NO_SLIPS}
+RIGHT = {"stick_slip": {"stick_slip"}, "reciprocating": {"stick_slip"}, "joint": {"stick_slip"}, "steady": {"steady_sliding"}, "wave": NO_SLIPS, "ringdown": NO_SLIPS}
 
 
 def fit(program, file, truth, *options):
-    return run(program, "fit", file, "--speed", f"{truth['speed_m_per_s']:.9g}", *options, timeout=120)
+    speed = [] if truth["speed_m_per_s"] is None else ["--speed", f"{truth['speed_m_per_s']:.9g}"]
+    return run(program, "fit", file, *speed, *options, timeout=120)
 
 
 def inside(interval, low, high=None):
@@ -82,7 +84,7 @@ def add_parameter(row, symbol, estimate, expected, warned):
     low, high = estimate["ci95"]
     value = estimate["value"]
     off = 0.0 if value is None else max(expected[0] - value, value - expected[1], 0.0)
-    identified = estimate["status"] == "identified"
+    identified = estimate.get("status") == "identified"
     row.add(symbol, inside((low, high), *expected))
     wrong = int(identified and off > max(high - low, 0.02 * expected[1]))
     for column, number in ((symbol + " !!", wrong), ("wrong", wrong), ("silent", int(wrong and not warned)),
@@ -94,15 +96,17 @@ def score_motion(document, truth):
     row = Row(verdict=int(document["status"] in RIGHT[truth["kind"]]), stretch=is_stretch_found(document, truth))
     frequency = document.get("frequency") or {}
     spacing = (document.get("derived") or {}).get("pattern_spacing_m") or {}
-    add_quoted(row, "f", frequency.get("value_Hz"), frequency.get("ci95_Hz"), truth["frequency_Hz"])
-    add_quoted(row, "x", spacing.get("value"), spacing.get("ci95"), truth["spacing_m"])
+    if truth["kind"] != "joint":
+        add_quoted(row, "f", frequency.get("value_Hz"), frequency.get("ci95_Hz"), truth["frequency_Hz"])
+        add_quoted(row, "x", spacing.get("value"), spacing.get("ci95"), truth["spacing_m"])
     row.add("extra", 0)
-    for name, symbol in SHORT.items():
-        estimate = (document.get("parameters") or {}).get(name)
+    estimates = {**(document.get("parameters") or {}), **(document.get("coefficients") or {})}
+    for name, symbol in (SHORT | {name: symbol for name, symbol in ALSO.items() if name in truth["parameters"]}).items():
+        estimate = estimates.get(name)
         if not estimate or not estimate.get("ci95"):
             continue
         expected = truth["parameters"].get(name)
-        if truth["kind"] not in ("stick_slip", "reciprocating"):
+        if truth["kind"] not in ("stick_slip", "reciprocating", "joint"):
             row.add(symbol + " !!", int(estimate["status"] == "identified"))
         elif expected is None:
             row.add("extra", int(name in TERMS))
@@ -128,7 +132,7 @@ def summarise_motion(rows):
 
 
 MOTION = {"verdict": share, **{f"{name} {what}": total if what == "abs" else share for name in "fx" for what in ("5 %", "in", "abs")},
-          "stretch": share, **{symbol + mark: total if mark else share for symbol in SHORT.values() for mark in ("", " !!")}, "extra": total}
+          "stretch": share, **{symbol + mark: total if mark else share for symbol in [*SHORT.values(), *ALSO.values()] for mark in ("", " !!")}, "extra": total}
 
 
 # -- sweeps

@@ -4,7 +4,8 @@
     make.py SET OUT [--count 10] [--seed 1] [--only plain,noisy] [--jobs 2]
 
 SET: scenes, contacts and instruments of all kinds and negative controls; terms, the terms that measured recordings ask for, alone and
-together; trends, a force level that rises or falls; sweeps, one sliding pair at several speeds.
+together; trends, a force level that rises or falls; clocks, uneven or rounded times with interference of the mains; strokes,
+recordings of several parts, and coefficients of friction; sweeps, one sliding pair at several speeds.
 """
 import concurrent.futures
 import json
@@ -14,11 +15,13 @@ import zlib
 
 import numpy as np
 
+import families_clocks
 import families_contacts
 import families_controls
 import families_exports
 import families_inside
 import families_outside
+import families_strokes
 import families_terms
 import families_trends
 import sweeps
@@ -28,7 +31,8 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
 from study import parser  # noqa: E402
 
 SETS = {"scenes": families_inside.FAMILIES + families_outside.FAMILIES + families_contacts.FAMILIES + families_exports.FAMILIES + families_controls.FAMILIES,
-        "terms": families_terms.FAMILIES, "trends": families_trends.FAMILIES, "sweeps": sweeps.FAMILIES}
+        "terms": families_terms.FAMILIES, "trends": families_trends.FAMILIES, "clocks": families_clocks.FAMILIES, "strokes": families_strokes.FAMILIES,
+        "sweeps": sweeps.FAMILIES}
 
 
 def make(out, families, family, seed):
@@ -37,7 +41,7 @@ def make(out, families, family, seed):
     if families == "sweeps":
         sweeps.write(made, out / name)
         return {"id": name, "family": family, "speeds_m_per_s": [run.speed for run in made.runs], **sweeps.truth_of(made)}
-    write_csv(out / f"{name}.csv", made.time_s, made.force, made.displacement_m, made.normal_N)
+    write_csv(out / f"{name}.csv", made.time_s, made.force, made.displacement_m, made.normal_N, made.speed_m_per_s)
     return {"id": name, "family": family, "file": f"{name}.csv", **made.truth}
 
 

@@ -65,6 +65,7 @@ class Scene:
     truth: dict
     displacement_m: np.ndarray = None
     normal_N: np.ndarray = None
+    speed_m_per_s: np.ndarray = None
 
 
 def counted(slips, share=0.25):

@@ -77,14 +77,15 @@ def simulate_lugre(k, omega, zeta, fs, fk, stribeck_speed, sigma0, sigma1, speed
     return force
 
 
-def write_csv(path, time_s, force, displacement_m=None, normal_N=None):
-    if normal_N is not None:
-        np.savetxt(path, np.c_[time_s, force, normal_N], fmt=("%.9g", "%.7g", "%.7g"), delimiter=",",
-                   header="time_s,force_N,normal_force_N", comments="")
-        return
-    if displacement_m is not None:
-        np.savetxt(path, np.c_[time_s, force, 1e3 * displacement_m], fmt=("%.9g", "%.7g", "%.9g"), delimiter=",",
-                   header="time_s,force_N,displacement_mm", comments="")
+def write_csv(path, time_s, force, displacement_m=None, normal_N=None, speed_m_per_s=None):
+    """Time and force, and a column of each of the others that is given."""
+    others = [("displacement_mm", "%.9g", None if displacement_m is None else 1e3 * displacement_m), ("normal_force_N", "%.7g", normal_N),
+              ("speed [m/s]", "%.17g", speed_m_per_s)]
+    others = [column for column in others if column[2] is not None]
+    if others:
+        names, formats, values = zip(*others)
+        np.savetxt(path, np.c_[(time_s, force, *values)], fmt=("%.9g", "%.7g", *formats), delimiter=",",
+                   header=",".join(("time_s", "force_N", *names)), comments="")
         return
     run = LIBRARY.write_csv
     run.argtypes = [ctypes.c_char_p, DOUBLES, DOUBLES, ctypes.c_long]
