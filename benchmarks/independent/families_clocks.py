@@ -53,10 +53,5 @@ def _recording(rng, clock, amplitude):
     return Scene(*written(rng, taken_s, force), truth_of(rig, motion.slips, (0.0, taken_s[-1]), K_ONLY))
 
 
-def _family(clock, amplitude):
-    draw = functools.partial(_recording, clock=clock, amplitude=amplitude)
-    draw.__name__ = f"{clock}.{1000 * amplitude:g}"
-    return draw
-
-
-FAMILIES = [_family(clock, amplitude) for clock in CLOCKS for amplitude in AMPLITUDES]
+FAMILIES = {f"{clock}.{1000 * amplitude:g}": functools.partial(_recording, clock=clock, amplitude=amplitude)
+            for clock in CLOCKS for amplitude in AMPLITUDES}

@@ -1,6 +1,6 @@
 """Families that are fitted as several parts or compared with a load: strokes to and fro, runs that begin at rest under a load, and five speeds one
 after another in one file, with friction that falls with the speed. Truths are the parameters, and the coefficients of the first and mean peak."""
-from scenes import Model, Scene, np, simulate
+from scenes import Model, Scene, families, np, simulate
 
 SCATTER = 0.04  # of F_s - F_k, relative
 
@@ -44,10 +44,6 @@ def strokes(rng, slips=20):
     return slider.scene(np.concatenate(parts), ["--strokes"])
 
 
-def short_strokes(rng):
-    return strokes(rng, 10)
-
-
 def from_rest(rng):
     """The load is twice F_s. The spring shows F_s less the viscous force of the frame at the driving speed, 2 zeta k V / omega."""
     slider = _Slider(rng)
@@ -68,4 +64,7 @@ def segments(rng):
     return slider.scene(force, ["--segments"], speed, alpha_s_per_m=alpha)
 
 
-FAMILIES = [strokes, short_strokes, from_rest, segments]
+FAMILIES = families(
+    strokes, from_rest, segments,
+    short_strokes=lambda rng: strokes(rng, 10),
+)

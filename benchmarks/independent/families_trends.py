@@ -1,6 +1,6 @@
 """Families whose force level rises or falls over the recording: friction that changes (run-in, a rising load) or a sensor that drifts.
 The load is written where a column of it belongs to the family."""
-from scenes import draw_rig, np, scene, simulate
+from scenes import draw_rig, families, np, scene, simulate
 
 
 def _course(rng):
@@ -87,4 +87,7 @@ def level(rng):
     return _known(rig, motion, motion.force, np.ones(len(share)))
 
 
-FAMILIES = [run_in, rising_load, load_column, steady_load, drift, drift_settles, level]
+FAMILIES = families(
+    run_in, rising_load, load_column, steady_load, drift, drift_settles, level,
+
+)

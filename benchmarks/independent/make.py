@@ -30,13 +30,13 @@ from simulator import write_csv
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
 from study import parser  # noqa: E402
 
-SETS = {"scenes": families_inside.FAMILIES + families_outside.FAMILIES + families_contacts.FAMILIES + families_exports.FAMILIES + families_controls.FAMILIES,
-        "terms": families_terms.FAMILIES, "trends": families_trends.FAMILIES, "clocks": families_clocks.FAMILIES, "strokes": families_strokes.FAMILIES,
-        "sweeps": sweeps.FAMILIES}
+SCENES = families_inside, families_outside, families_contacts, families_exports, families_controls
+SETS = {"scenes": {name: draw for module in SCENES for name, draw in module.FAMILIES.items()}, "terms": families_terms.FAMILIES,
+        "trends": families_trends.FAMILIES, "clocks": families_clocks.FAMILIES, "strokes": families_strokes.FAMILIES, "sweeps": sweeps.FAMILIES}
 
 
 def make(out, families, family, seed):
-    made = {f.__name__: f for f in SETS[families]}[family](np.random.default_rng([seed, zlib.crc32(family.encode())]))
+    made = SETS[families][family](np.random.default_rng([seed, zlib.crc32(family.encode())]))
     name = f"{family}-{seed}"
     if families == "sweeps":
         sweeps.write(made, out / name)
@@ -55,7 +55,7 @@ def main():
     words.add_argument("--jobs", type=int, default=2)
     given = words.parse_args()
     given.out.mkdir(parents=True, exist_ok=True)
-    names = given.only.split(",") if given.only else [family.__name__ for family in SETS[given.families]]
+    names = given.only.split(",") if given.only else SETS[given.families]
     tasks = [(given.out, given.families, name, seed) for name in names for seed in range(given.seed, given.seed + given.count)]
     with concurrent.futures.ProcessPoolExecutor(given.jobs) as pool, open(given.out / "truth.jsonl", "w", encoding="utf-8") as truths:
         for truth in pool.map(make, *zip(*tasks)):
