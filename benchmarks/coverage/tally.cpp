@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <array>
 #include <boost/math/distributions/binomial.hpp>
 #include <cmath>
+#include <deque>
 #include <map>
 #include <set>
 #include <sstream>
@@ -30,9 +32,8 @@ const char* name_of(ParameterStatus status) {
   return kNames.at(static_cast<std::size_t>(status));
 }
 
-const slipfit::Parameter* find(const Analysis& analysis, const std::string& name) {
-  if (!analysis.fit) return nullptr;
-  for (const slipfit::Parameter& parameter : analysis.fit->parameters) {
+const slipfit::Parameter* find(const std::vector<slipfit::Parameter>& parameters, const std::string& name) {
+  for (const slipfit::Parameter& parameter : parameters) {
     if (parameter.name() == name) return &parameter;
   }
   return nullptr;
@@ -62,11 +63,17 @@ double mean(const std::vector<double>& values) {
   return values.empty() ? 0.0 : sum / static_cast<double>(values.size());
 }
 
+double quantile(std::vector<double> values, double share) {
+  std::sort(values.begin(), values.end());
+  return values.at(static_cast<std::size_t>(share * static_cast<double>(values.size())));
+}
+
 /// Counts over the rows of one line of the summary.
 struct Tally {
   double rows = 0.0, given = 0.0, inside = 0.0, identified = 0.0, wrong = 0.0;
   std::vector<double> misses;    // in standard errors
   std::vector<double> relative;  // squared error over squared bound
+  std::vector<double> errors;    // relative to the truth
 
   void add(const Row& row) {
     rows += 1.0;
@@ -76,6 +83,7 @@ struct Tally {
     }
     identified += row.status == "identified" ? 1.0 : 0.0;
     wrong += row.confidently_wrong() ? 1.0 : 0.0;
+    if (row.estimate.value) errors.push_back(std::abs(*row.estimate.value / row.truth - 1.0));
     if (!row.estimate.value || !row.estimate.standard_error) return;
     const double error = *row.estimate.value - row.truth;
     if (*row.estimate.standard_error > 0.0) misses.push_back(error / *row.estimate.standard_error);
@@ -90,9 +98,10 @@ struct Tally {
     const double bias = mean(misses);
     for (const double z : misses) spread += (z - bias) * (z - bias) / static_cast<double>(misses.size());
     const std::string ratio = relative.empty() ? "" : fmt::format("{:.3f}", std::sqrt(mean(relative)));
-    return fmt::format("{:20s} {:8s} {:5.0f} {:5.0f} {:7.1f} {:8.4f}{} {:+6.2f} {:6.2f} {:>7s} {:7.1f} {:4.0f}\n", name,
-                       parameter, rows, given, 100.0 * inside / given, p, p < 0.01 ? "!" : " ", bias, std::sqrt(spread),
-                       ratio, 100.0 * identified / rows, wrong);
+    return fmt::format(
+        "{:20s} {:8s} {:5.0f} {:5.0f} {:7.1f} {:8.4f}{} {:+6.2f} {:6.2f} {:>7s} {:7.1f} {:4.0f} {:9.4f} {:9.4f}\n",
+        name, parameter, rows, given, 100.0 * inside / given, p, p < 0.01 ? "!" : " ", bias, std::sqrt(spread), ratio,
+        100.0 * identified / rows, wrong, quantile(errors, 0.5), quantile(errors, 0.95));
   }
 };
 
@@ -156,7 +165,7 @@ std::vector<Row> fit_scene(const Scene& scene) {
     Row row = empty;
     row.parameter = name;
     row.truth = truth;
-    if (const slipfit::Parameter* parameter = find(analysis, key)) {
+    if (const slipfit::Parameter* parameter = analysis.fit ? find(analysis.fit->parameters, key) : nullptr) {
       row.estimate = parameter->estimate;
       row.status = name_of(parameter->status);
     }
@@ -172,6 +181,56 @@ std::vector<Row> fit_scene(const Scene& scene) {
   spacing.warnings = fmt::format("{}", fmt::join(codes, " "));
   if (analysis.motion == MotionClass::StickSlip) spacing.estimate = analysis.derived.pattern_spacing_m;
   rows.push_back(spacing);
+  return rows;
+}
+
+std::vector<Row> fit_joint(const Sweep& sweep) {
+  constexpr std::size_t kFitted = 3;
+  const std::array<std::tuple<const char*, const char*, double>, 9> parameters{
+      {{"k", "stiffness_N_per_m", sweep.slider.stiffness_N_per_m()},
+       {"dF", "friction_difference_N", sweep.friction.static_N() - sweep.friction.onset_N()},
+       {"w_n", "natural_frequency_rad_per_s", sweep.slider.natural_frequency_rad_per_s()},
+       {"zeta", "damping_ratio", sweep.slider.damping_ratio()},
+       {"F_s", "static_friction_N", sweep.friction.static_N()},
+       {"F_k", "kinetic_friction_N", sweep.friction.onset_N()},
+       {"alpha", "alpha_s_per_m", sweep.friction.alpha_s_per_m()},
+       {"f0", "f0_N", sweep.friction.f0_N()},
+       {"f1", "f1_N", sweep.friction.f1_N()}}};
+  const slipfit::SweepAnalysis analysis = slipfit::analyze_sweep(sweep.entries);
+  std::vector<Row> rows;
+  if (!analysis.fit) return rows;
+  const auto add = [&](const char* name, double truth, const Estimate& estimate, const char* status) {
+    Row row;
+    row.family = "sweeps";
+    row.note = sweep.friction.alpha_s_per_m() < 0.0 ? "alpha < 0" : "alpha > 0";
+    row.seed = sweep.seed;
+    row.parameter = name;
+    row.truth = truth;
+    row.estimate = estimate;
+    row.status = status;
+    if (estimate.value) rows.push_back(row);
+  };
+  for (const auto& [name, key, truth] : parameters) {
+    if (const slipfit::Parameter* parameter = find(analysis.fit->result.parameters, key)) {
+      add(name, truth, parameter->estimate, name_of(parameter->status));
+    }
+  }
+  std::deque<slipfit::Quality> qualities;
+  std::deque<slipfit::Segmentation> slips;
+  std::vector<slipfit::SweepRecording> recordings;
+  for (const auto& [name, recording] : sweep.entries) {
+    qualities.push_back(slipfit::assess_quality(recording));
+    slips.push_back(slipfit::find_slips(recording, qualities.back()));
+    const auto role = recordings.size() < kFitted ? slipfit::SweepRole::Cycles : slipfit::SweepRole::LeftOut;
+    recordings.push_back({recording, qualities.back(), slips.back(), role});
+  }
+  const auto lower = slipfit::fit_sweep(recordings, {});
+  for (std::size_t i = 0; i < sweep.entries.size(); ++i) {
+    const auto truth = sweep.spacing_m(sweep.entries[i].recording.conditions().speed_m_per_s);
+    if (!truth) continue;
+    add("left_out", *truth, analysis.fit->points[i].spacing_left_out_m, "predicted");
+    if (lower && i >= kFitted) add("higher", *truth, lower->points[i].spacing_m, "predicted");
+  }
   return rows;
 }
 
@@ -195,14 +254,16 @@ std::string summarise(const std::vector<Row>& rows) {
     if (!is_stick_slip(row.family)) continue;
     kinds[{row.family, row.parameter}].add(row);
     if (!row.note.empty()) kinds[{row.family + " " + row.note, row.parameter}].add(row);
-    if (row.family != "defect" && row.family != "ar1") pooled[row.parameter].add(row);
+    if (row.family != "defect" && row.family != "ar1" && row.family != "sweeps") pooled[row.parameter].add(row);
   }
   std::string text =
-      "family               param       n given  cover%   p         bias   z sd  rms/CR  ident% wrong\n"
-      "(p: binomial chance of so few inside, ! below 1 %; bias, z sd: of (value - truth) / se; wrong: confidently)\n";
+      "family               param       n given  cover%   p         bias   z sd  rms/CR  ident% wrong    median     95 "
+      "%\n"
+      "(p: binomial chance of so few inside, ! below 1 %; bias, z sd: of (value - truth) / se; wrong: "
+      "confidently; median, 95 %: of the relative errors)\n";
   for (const auto& [key, tally] : kinds) text += tally.line(key.first, key.second);
   for (const auto& [name, tally] : pooled) text += tally.line("pooled", name);
-  return text + motion_lines(rows) + warning_lines(rows);
+  return rows.empty() || rows.front().family == "sweeps" ? text : text + motion_lines(rows) + warning_lines(rows);
 }
 
 }  // namespace coverage
