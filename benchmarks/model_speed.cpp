@@ -1,4 +1,4 @@
-// Speed of the model layer (Google Benchmark). docs/validation.md quotes what it prints.
+// Speed of the model layer and of whole analyses (Google Benchmark). docs/validation.md quotes what it prints.
 
 #include <benchmark/benchmark.h>
 
@@ -15,9 +15,11 @@
 #include "slipfit/model/motion.hpp"
 #include "slipfit/model/paper.hpp"
 #include "slipfit/model/sensitivity.hpp"
+#include "slipfit/pipeline.hpp"
 #include "slipfit/predict/prediction.hpp"
 #include "support/velocity_motion.hpp"
 #include "support/waveform.hpp"
+#include "usual_recording.hpp"
 
 namespace {
 
@@ -161,7 +163,7 @@ fit::Sensor averaging(double average_tau) {
   return sensor;
 }
 fit::CoulombCycle coulomb_cycle(double average_tau) {
-  return {kLambda - 2.0 * kZeta, kZeta, averaging(average_tau)};
+  return {kLambda - 2.0 * kZeta, kZeta, averaging(average_tau), ForceView::Spring};
 }
 fit::WeakeningCycle weakening_cycle(double average_tau) {
   fit::Scales scales;
@@ -218,6 +220,22 @@ void limit_cycle(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(predict::motion_at(model, 1e-3));
 }
 
+/// Quality, slips, frequency, all Coulomb tiers, kind of motion; 400 samples a cycle.
+void analysis_and_fit(benchmark::State& state) {
+  const Recording recording = usual_recording(static_cast<double>(state.range(0)), 400.0);
+  double fit_s = 0.0;
+  for (auto _ : state) {
+    const Analysis analysis = analyze_and_fit(recording);
+    fit_s += analysis.timing.fit_s;
+    benchmark::DoNotOptimize(&analysis);
+  }
+  state.counters["fit_ms"] = 1e3 * fit_s / static_cast<double>(state.iterations());
+  state.counters["us_per_cycle"] =
+      benchmark::Counter(static_cast<double>(state.range(0)) * 1e-6,
+                         benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+
+BENCHMARK(analysis_and_fit)->Arg(50)->Arg(200)->Arg(1000)->Arg(5000)->Arg(10000)->Unit(benchmark::kMillisecond);
 BENCHMARK(coulomb_solved)->Arg(0)->Arg(2);
 BENCHMARK(coulomb_sample)->Arg(0)->Arg(2);
 BENCHMARK(weakening_solved)->Arg(0)->Arg(2);
