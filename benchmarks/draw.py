@@ -5,7 +5,7 @@ draw.py failures TABLE,... FOLDER       failure maps of `atlas --only failures t
 draw.py compared TABLE,... FILE         three maps of fits in one file
 draw.py front TABLE,... FILE [--quantities k,alpha] [--scenes A,B] [--coverage]    accuracy against CPU time, measured by peers/front.py
 draw.py atlas FOLDER FOLDER             the tables that `atlas --only forward frequency fits` writes in the first folder
-draw.py coverage SUMMARY,... FILE       coverage of the 95 % intervals as `coverage` prints it, one row a family
+draw.py coverage SUMMARY,... FILE       coverage of the 95 % intervals as coverage/summarise.py prints it, one row a family
 
 A cell of a failure map is filled by how the method answers there: right, refused (it states that it has no answer), weak (it answers and marks
 the answer as weak) or wrong (without a warning). Bars of the coverage contain 95 % of the chance that the number of recordings leaves (Wilson).

@@ -81,12 +81,14 @@ def counts(values):
 
 
 def print_table(columns, groups, name="family", whole="all"):
-    """A line for each group of rows, and one for all. `columns`: how the values of each are summed up. Columns that no row has are left out."""
+    """A line for each group of rows, and one for all. `columns`: how the values of each are summed up, or whose values and how. Columns that no
+    row has are left out."""
     rows = [row for group in groups.values() for row in group]
-    columns = {column: how for column, how in columns.items() if any(row[column] for row in rows)}
+    columns = {title: how if isinstance(how, tuple) else (title, how) for title, how in columns.items()}
+    columns = {title: of for title, of in columns.items() if any(row[of[0]] for row in rows)}
     lines = [[name, *columns]]
     for group, members in [*groups.items(), *([(whole, rows)] if whole else [])]:
-        lines.append([str(group), *(how([value for row in members for value in row[column]]) for column, how in columns.items())])
+        lines.append([str(group), *(how([value for row in members for value in row[column]]) for column, how in columns.values())])
     widths = [max(map(len, column)) for column in zip(*lines)]
     for cells in lines:
         print(cells[0].ljust(widths[0]), *(cell.rjust(width) for cell, width in zip(cells[1:], widths[1:])))

@@ -1,16 +1,15 @@
-// Simulates recordings and sweeps of known truth, fits them, and counts how often the truth lies in the intervals.
-// docs/validation.md quotes what it prints.
+// Simulates recordings and sweeps of known truth, fits them, and prints truth and estimate of each parameter, for
+// coverage/summarise.py.
 
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <fstream>
 #include <string>
 #include <vector>
 
 #include "families.hpp"
 #include "in_parallel.hpp"
-#include "tally.hpp"
+#include "rows.hpp"
 
 namespace {
 
@@ -19,7 +18,6 @@ struct Arguments {
   std::uint64_t count = 100;
   std::uint64_t seed = 1;
   unsigned jobs = 2;
-  std::string out;
 };
 
 std::vector<coverage::Row> run(const Arguments& arguments) {
@@ -46,9 +44,6 @@ int main(int argc, char** argv) {
   program.add_option("--count", arguments.count, "Recordings or sweeps of each family")->capture_default_str();
   program.add_option("--seed", arguments.seed)->capture_default_str();
   program.add_option("--jobs", arguments.jobs, "Threads")->capture_default_str();
-  program.add_option("--out", arguments.out, "Write one row a recording and parameter (CSV)");
   CLI11_PARSE(program, argc, argv);
-  const std::vector<coverage::Row> rows = run(arguments);
-  if (!arguments.out.empty()) std::ofstream(arguments.out) << coverage::to_csv(rows);
-  fmt::print("{}", coverage::summarise(rows));
+  fmt::print("{}", coverage::to_csv(run(arguments)));
 }

@@ -1,16 +1,12 @@
-#include "tally.hpp"
+#include "rows.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
 #include <array>
-#include <boost/math/distributions/binomial.hpp>
-#include <cmath>
 #include <deque>
 #include <map>
 #include <set>
-#include <sstream>
 #include <tuple>
 #include <utility>
 
@@ -57,94 +53,7 @@ std::map<std::string, double> bounds_of(const Scene& scene) {
   return bounds;
 }
 
-double mean(const std::vector<double>& values) {
-  double sum = 0.0;
-  for (const double value : values) sum += value;
-  return values.empty() ? 0.0 : sum / static_cast<double>(values.size());
-}
-
-double quantile(std::vector<double> values, double share) {
-  std::sort(values.begin(), values.end());
-  return values.at(static_cast<std::size_t>(share * static_cast<double>(values.size())));
-}
-
-/// Counts over the rows of one line of the summary.
-struct Tally {
-  double rows = 0.0, given = 0.0, inside = 0.0, identified = 0.0, wrong = 0.0;
-  std::vector<double> misses;    // in standard errors
-  std::vector<double> relative;  // squared error over squared bound
-  std::vector<double> errors;    // relative to the truth
-
-  void add(const Row& row) {
-    rows += 1.0;
-    if (const auto covered = row.covered()) {
-      given += 1.0;
-      inside += *covered ? 1.0 : 0.0;
-    }
-    identified += row.status == "identified" ? 1.0 : 0.0;
-    wrong += row.confidently_wrong() ? 1.0 : 0.0;
-    if (row.estimate.value) errors.push_back(std::abs(*row.estimate.value / row.truth - 1.0));
-    if (!row.estimate.value || !row.estimate.standard_error) return;
-    const double error = *row.estimate.value - row.truth;
-    if (*row.estimate.standard_error > 0.0) misses.push_back(error / *row.estimate.standard_error);
-    if (row.bound && *row.bound > 0.0) relative.push_back(error * error / (*row.bound * *row.bound));
-  }
-
-  [[nodiscard]] std::string line(const std::string& name, const std::string& parameter) const {
-    if (given == 0.0) return fmt::format("{:20s} {:8s} {:5.0f} {:5.0f}\n", name, parameter, rows, given);
-    // Chance of so few truths inside if each interval held its own with 95 %.
-    const double p = boost::math::cdf(boost::math::binomial_distribution<double>(given, 0.95), inside);
-    double spread = 0.0;
-    const double bias = mean(misses);
-    for (const double z : misses) spread += (z - bias) * (z - bias) / static_cast<double>(misses.size());
-    const std::string ratio = relative.empty() ? "" : fmt::format("{:.3f}", std::sqrt(mean(relative)));
-    return fmt::format(
-        "{:20s} {:8s} {:5.0f} {:5.0f} {:7.1f} {:8.4f}{} {:+6.2f} {:6.2f} {:>7s} {:7.1f} {:4.0f} {:9.4f} {:9.4f}\n",
-        name, parameter, rows, given, 100.0 * inside / given, p, p < 0.01 ? "!" : " ", bias, std::sqrt(spread), ratio,
-        100.0 * identified / rows, wrong, quantile(errors, 0.5), quantile(errors, 0.95));
-  }
-};
-
-std::string motion_lines(const std::vector<Row>& rows) {
-  std::map<std::string, std::pair<double, double>> right;  // of all
-  for (const Row& row : rows) {
-    if (row.parameter != "spacing") continue;
-    auto& [good, all] = right[row.family + (row.note.empty() ? "" : " " + row.note)];
-    all += 1.0;
-    good += (row.motion == "stick_slip") == is_stick_slip(row.family) ? 1.0 : 0.0;
-  }
-  std::string text = "\nkind of motion right\n";
-  for (const auto& [name, counts] : right) {
-    text += fmt::format("{:20s} {:5.0f} of {:5.0f}\n", name, counts.first, counts.second);
-  }
-  return text;
-}
-
-std::string warning_lines(const std::vector<Row>& rows) {
-  std::map<std::pair<std::string, std::string>, int> counts;
-  for (const Row& row : rows) {
-    std::istringstream codes(row.warnings);
-    for (std::string code; codes >> code;) {
-      ++counts[{row.family + (row.note.empty() ? "" : " " + row.note), code}];
-    }
-  }
-  std::string text = "\nwarnings\n";
-  for (const auto& [key, count] : counts) text += fmt::format("{:20s} {:24s} {:5d}\n", key.first, key.second, count);
-  return text;
-}
-
 }  // namespace
-
-std::optional<bool> Row::covered() const {
-  if (!estimate.ci95) return std::nullopt;
-  return estimate.ci95->low <= truth && truth <= estimate.ci95->high;
-}
-
-bool Row::confidently_wrong() const {
-  if (status != "identified" || !estimate.value || !estimate.standard_error) return false;
-  const double error = std::abs(*estimate.value - truth);
-  return error > 4.0 * *estimate.standard_error && error > 0.02 * std::abs(truth);
-}
 
 std::vector<Row> fit_scene(const Scene& scene) {
   const Analysis analysis = slipfit::analyze_and_fit(scene.recording);
@@ -245,25 +154,6 @@ std::string to_csv(const std::vector<Row>& rows) {
         e.ci95 ? fmt::format("{:.9g}", e.ci95->high) : "", row.status, row.motion, cell(row.bound), row.warnings);
   }
   return text;
-}
-
-std::string summarise(const std::vector<Row>& rows) {
-  std::map<std::pair<std::string, std::string>, Tally> kinds;
-  std::map<std::string, Tally> pooled;
-  for (const Row& row : rows) {
-    if (!is_stick_slip(row.family)) continue;
-    kinds[{row.family, row.parameter}].add(row);
-    if (!row.note.empty()) kinds[{row.family + " " + row.note, row.parameter}].add(row);
-    if (row.family != "defect" && row.family != "ar1" && row.family != "sweeps") pooled[row.parameter].add(row);
-  }
-  std::string text =
-      "family               param       n given  cover%   p         bias   z sd  rms/CR  ident% wrong    median     95 "
-      "%\n"
-      "(p: binomial chance of so few inside, ! below 1 %; bias, z sd: of (value - truth) / se; wrong: "
-      "confidently; median, 95 %: of the relative errors)\n";
-  for (const auto& [key, tally] : kinds) text += tally.line(key.first, key.second);
-  for (const auto& [name, tally] : pooled) text += tally.line("pooled", name);
-  return rows.empty() || rows.front().family == "sweeps" ? text : text + motion_lines(rows) + warning_lines(rows);
 }
 
 }  // namespace coverage

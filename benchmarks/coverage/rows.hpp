@@ -20,11 +20,6 @@ struct Row {
   std::string motion;           ///< of the recording
   std::string warnings;         ///< codes of the recording's, with blanks between; only in the row of the spacing
   std::optional<double> bound;  ///< Cramer-Rao bound of the standard deviation
-
-  /// In the 95 % interval; empty without one.
-  [[nodiscard]] std::optional<bool> covered() const;
-  /// Identified, and the truth is more than 4 standard errors and 2 % of itself away.
-  [[nodiscard]] bool confidently_wrong() const;
 };
 
 std::vector<Row> fit_scene(const Scene& scene);
@@ -34,9 +29,5 @@ std::vector<Row> fit_scene(const Scene& scene);
 std::vector<Row> fit_joint(const Sweep& sweep);
 
 std::string to_csv(const std::vector<Row>& rows);
-
-/// A line for each family (and kind of defect, view, sparse) and parameter, one for each parameter pooled, verdicts,
-/// warnings.
-std::string summarise(const std::vector<Row>& rows);
 
 }  // namespace coverage
