@@ -3,9 +3,11 @@ import argparse
 import collections
 import concurrent.futures
 import json
+import os
 import resource
 import statistics
 import subprocess
+import time
 
 
 def parser(description):
@@ -25,17 +27,18 @@ def is_answer(document):
     return document["status"] not in ("refused", "timeout") if "status" in document else True
 
 
-def children_cpu_s():
-    """Processor time of all processes that have ended."""
-    usage = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return usage.ru_utime + usage.ru_stime
+Cost = collections.namedtuple("Cost", "wall_s cpu_s peak_MB code out error")
 
 
-def timed(*words):
-    """Processor time of a command, and what it prints. A command that fails is an error."""
-    before = children_cpu_s()
-    text = subprocess.run(list(map(str, words)), check=True, capture_output=True, text=True).stdout
-    return children_cpu_s() - before, text
+def cost(*words, limit_s=None):
+    """What a command takes, its start included, and what it prints. The peak is at least that of this program. `limit_s`: of processor time."""
+    limit = None if limit_s is None else lambda: resource.setrlimit(resource.RLIMIT_CPU, (limit_s, limit_s))
+    begun = time.perf_counter()
+    process = subprocess.Popen(list(map(str, words)), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, preexec_fn=limit)
+    out, error = process.stdout.read(), process.stderr.read()
+    _, status, usage = os.wait4(process.pid, 0)
+    process.returncode = os.waitstatus_to_exitcode(status)
+    return Cost(time.perf_counter() - begun, usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024.0, process.returncode, out, error)
 
 
 def in_parallel(jobs, function, items):

@@ -28,7 +28,7 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import brentq, least_squares
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
-from study import parser, timed  # noqa: E402
+from study import cost, parser  # noqa: E402
 
 TRUTH = {"stiffness_N_per_m": 5000.0, "natural_frequency_rad_per_s": 900.0, "damping_ratio": 0.05,
          "friction_difference_N": 1.0}
@@ -246,10 +246,9 @@ def report(name, ours, values, seconds, result):
 
 
 def fit_by_slipfit(slipfit, file):
-    start_s, _ = timed(slipfit, "--version")
-    whole_s, text = timed(slipfit, "fit", file, "--speed", str(SPEED), "--json", "--timing")
-    document = json.loads(text)
-    return whole_s - start_s, document["timing"]["fit_s"], [document["parameters"][name]["value"] for name in TRUTH]
+    start, whole = cost(slipfit, "--version"), cost(slipfit, "fit", file, "--speed", SPEED, "--json", "--timing")
+    document = json.loads(whole.out)
+    return whole.cpu_s - start.cpu_s, document["timing"]["fit_s"], [document["parameters"][name]["value"] for name in TRUTH]
 
 
 def main():

@@ -13,7 +13,6 @@ import argparse
 import csv
 import json
 import pathlib
-import subprocess
 import sys
 import tempfile
 import time
@@ -23,7 +22,7 @@ import numpy
 import compare
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
-from study import parser, read_truths, timed  # noqa: E402
+from study import cost, parser, read_truths  # noqa: E402
 
 # name: key in the fit document and in the truth
 QUANTITIES = {"k": "stiffness_N_per_m", "spacing": "pattern_spacing_m", "w_n": "natural_frequency_rad_per_s", "zeta": "damping_ratio",
@@ -38,12 +37,8 @@ def read_estimate(document, key):
 
 def run_command(slipfit, *words):
     """CPU seconds of a command without those of the program's start, and its document; None if it fails."""
-    start_s, _ = timed(slipfit, "--version")
-    try:
-        whole_s, text = timed(slipfit, "fit", *words, "--json", "--quiet")
-    except subprocess.CalledProcessError:
-        return None
-    return whole_s - start_s, json.loads(text)
+    start, whole = cost(slipfit, "--version"), cost(slipfit, "fit", *words, "--json", "--quiet")
+    return (whole.cpu_s - start.cpu_s, json.loads(whole.out)) if whole.code == 0 else None
 
 
 def command(slipfit, file, truth, *options):

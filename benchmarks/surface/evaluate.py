@@ -14,7 +14,7 @@ import numpy as np
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
 from draw import draw_points  # noqa: E402
-from study import Row, children_cpu_s, in_parallel, is_answer, parser, print_table, read_truths, run, total  # noqa: E402
+from study import Row, cost, in_parallel, is_answer, parser, print_table, read_truths, run, total  # noqa: E402
 
 
 def spacing_um(document):
@@ -115,13 +115,6 @@ def machined_row(true, document):
                                                                             "warned of machining": int("origin_not_known" in codes)})
 
 
-def program_time_s(program, files):
-    before = children_cpu_s()
-    for file in files:
-        run(program, "surface", file)
-    return (children_cpu_s() - before) / len(files)
-
-
 def main():
     words = parser(__doc__)
     words.add_argument("program")
@@ -145,7 +138,7 @@ def main():
     print()
     print_table({"n": total, "answered": total, "inside": total, "within 2 %": total, "warned of machining": total}, dict(sorted(machined.items())),
                 "machined", whole=None)
-    program_s = program_time_s(given.program, [given.profiles / truth["file"] for truth in truths[:100]])
+    program_s = float(np.mean([cost(given.program, "surface", given.profiles / truth["file"], "--json").cpu_s for truth in truths[:100]]))
     times_s = {name: float(np.median(seconds)) for name, seconds in taken.items()}
     print(f"\nprocessor time of a profile: the whole program {1e3 * program_s:.1f} ms; without reading, by numpy: "
           + ", ".join(f"{name} {1e3 * seconds:.2f} ms" for name, seconds in times_s.items()))
