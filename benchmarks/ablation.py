@@ -10,7 +10,6 @@ One line a threshold and direction, against the answers without a change: docume
 refusal; in the status of a parameter; in a value or interval by more than 0.05 standard errors; in their warnings. Where the truth
 is known: right kinds of motion, frequencies within 5 %, intervals that hold the truth and that do not, identified and far off, terms taken
 that are not there (more or fewer than without the change). Last the processor time over that without the change."""
-import argparse
 import collections
 import csv
 import json
@@ -24,6 +23,7 @@ import sys
 PROJECT = pathlib.Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(PROJECT / "benchmarks/independent"))
 from evaluate import SHORT, score_motion  # noqa: E402
+from study import parser, read_truths  # noqa: E402
 
 CONSTANT = re.compile(r"inline constexpr ([\w:]+) (k\w+) = ([^;]+);")
 CONVERT = """#include <cstdlib>
@@ -79,7 +79,7 @@ class Corpus:
     def __init__(self, path, folder):
         self.truths, self.manifest, self.profiles = {}, path, []
         if path.is_dir():
-            rows = [json.loads(line) for line in open(path / "truth.jsonl")]
+            rows = read_truths(path)
             self.truths = {row.get("id", row.get("file")): row for row in rows if "kind" in row}
             self.profiles = [path / row["file"] for row in rows if "file" in row and "speed_m_per_s" not in row]
             self.manifest = folder / f"{path.name}.csv"
@@ -207,13 +207,13 @@ def answered(program, corpora, kind, folder, environment):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("folder", type=pathlib.Path)
-    parser.add_argument("corpora", type=pathlib.Path, nargs="*")
-    parser.add_argument("--factor", type=float, default=1e6)
-    parser.add_argument("--only", default="")
-    parser.add_argument("--out", type=pathlib.Path)
-    given = parser.parse_args()
+    words = parser(__doc__)
+    words.add_argument("folder", type=pathlib.Path)
+    words.add_argument("corpora", type=pathlib.Path, nargs="*")
+    words.add_argument("--factor", type=float, default=1e6)
+    words.add_argument("--only", default="")
+    words.add_argument("--out", type=pathlib.Path)
+    given = words.parse_args()
     given.folder.mkdir(parents=True, exist_ok=True)
     program, plain = build(given.folder), {k: v for k, v in os.environ.items() if not k.startswith("SLIPFIT_")}
     corpora = [Corpus(path, given.folder) for path in given.corpora]
