@@ -318,16 +318,12 @@ PARAMETERS = ["k", "dF", "w_n", "zeta", "spacing"]
 
 def read_coverage(names):
     """{family: {parameter: (given, share inside)}} from the lines of the summaries."""
-    rows, names = {}, names.split(",")
-    for name in names:
-        for line in pathlib.Path(name).read_text(encoding="utf-8").splitlines():
-            parts = line.replace("!", " ").split()
-            place = next((i for i, part in enumerate(parts) if part in PARAMETERS), 0)
-            if not 0 < place < 3 or len(parts) < place + 4:
-                continue
-            family = " ".join(parts[:place])
-            if family != "pooled" or len(names) == 1 or family not in rows or parts[place] not in rows[family]:
-                rows.setdefault(family, {})[parts[place]] = (float(parts[place + 2]), 0.01 * float(parts[place + 3]))
+    rows = collections.defaultdict(dict)
+    for line in (line for name in names.split(",") for line in pathlib.Path(name).read_text(encoding="utf-8").splitlines()):
+        parts = line.replace("!", " ").split()
+        place = next((i for i, part in enumerate(parts) if part in PARAMETERS), 0)
+        if 0 < place < 3 and len(parts) >= place + 4:
+            rows[" ".join(parts[:place])][parts[place]] = (float(parts[place + 2]), 0.01 * float(parts[place + 3]))
     return rows
 
 
