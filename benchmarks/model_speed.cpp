@@ -18,7 +18,6 @@
 #include "slipfit/pipeline.hpp"
 #include "slipfit/predict/prediction.hpp"
 #include "support/velocity_motion.hpp"
-#include "support/waveform.hpp"
 #include "usual_recording.hpp"
 
 namespace {
@@ -113,42 +112,6 @@ void velocity_track_sample(benchmark::State& state) {
   const double step = track->tau_end() / 1000.0;
   std::size_t i = 0;
   for (auto _ : state) benchmark::DoNotOptimize(track->at(step * static_cast<double>(++i % 1000)));
-}
-/// One sample of a slip in the waveform of the exact tier.
-void velocity_waveform_sample(benchmark::State& state) {
-  const VelocityScene scene = velocity_scenes().front();
-  const double slip_s = velocity_motion(scene.slider, scene.friction, 1.0).value().motion.cycle->slip_s;
-  std::vector<double> time_s;
-  for (int i = 0; i < 1000; ++i) time_s.push_back(slip_s * i / 1000.0);
-  for (auto _ : state) benchmark::DoNotOptimize(velocity_waveform(scene.slider, scene.friction, 1.0, time_s));
-  state.counters["per_sample"] = benchmark::Counter(1000.0 * static_cast<double>(state.iterations()),
-                                                    benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
-}
-
-constexpr std::size_t kSamples = 100000;
-
-Scene waveform_scene(benchmark::State& state) {
-  return {Slider::create(1.0, 1.0, 0.05).value(), Friction::create(static_cast<double>(state.range(0)), 0.0).value()};
-}
-void count_samples(benchmark::State& state) {
-  state.counters["per_sample"] =
-      benchmark::Counter(static_cast<double>(kSamples) * static_cast<double>(state.iterations()),
-                         benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
-}
-
-void waveform(benchmark::State& state) {
-  const Scene s = waveform_scene(state);
-  for (auto _ : state) {
-    benchmark::DoNotOptimize(damped_waveform(s.slider, s.friction, 1.0, ForceView::Spring, {0.0, 0.1, kSamples}));
-  }
-  count_samples(state);
-}
-void waveform_with_derivatives(benchmark::State& state) {
-  const Scene s = waveform_scene(state);
-  for (auto _ : state) {
-    benchmark::DoNotOptimize(damped_waveform_sensitivity(s.slider, s.friction, 1.0, {0.0, 0.1, kSamples}));
-  }
-  count_samples(state);
 }
 
 // The slips of the fit, as an instrument shows them, with their derivatives. Of a slip of lambda 20 and zeta 0.05 one
@@ -249,9 +212,6 @@ BENCHMARK(velocity_cycle);
 BENCHMARK(velocity_cycle_with_derivatives);
 BENCHMARK(velocity_track_solved);
 BENCHMARK(velocity_track_sample);
-BENCHMARK(velocity_waveform_sample);
-BENCHMARK(waveform)->Arg(2)->Arg(20);
-BENCHMARK(waveform_with_derivatives)->Arg(2)->Arg(20);
 
 }  // namespace
 

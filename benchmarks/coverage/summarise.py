@@ -13,7 +13,7 @@ import numpy as np
 from scipy.stats import binom
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
-from study import Row, counts, print_table, share, total  # noqa: E402
+from study import Row, counts, parser, print_table, share, total  # noqa: E402
 
 WITHOUT_SLIPS = ("ringdown", "steady")
 
@@ -48,8 +48,10 @@ def scored(line):
 
 
 def main():
+    words = parser(__doc__)
+    words.add_argument("rows", nargs="+")
     tables, motion = collections.defaultdict(list), collections.defaultdict(list)
-    for line in (line for name in sys.argv[1:] for line in csv.DictReader(open(name, encoding="utf-8"))):
+    for line in (line for name in words.parse_args().rows for line in csv.DictReader(open(name, encoding="utf-8"))):
         family, kind = line["family"], f"{line['family']} {line['note']}".strip()
         if line["parameter"] == "spacing":
             right = (line["motion"] == "stick_slip") != (family in WITHOUT_SLIPS)
