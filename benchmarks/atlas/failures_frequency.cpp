@@ -33,12 +33,8 @@ std::string over(const Plane& plane, double Factors::*x, double Factors::*y, std
   std::string rows;
   for (const FrequencyMethod& method : frequency_methods()) {
     if (method.name == "FFT peak") continue;  // as the interpolated one
-    rows += judge_plane(plane, method.name, [&](double at_x, double at_y) {
-      Factors factors;
-      factors.*x = at_x;
-      factors.*y = at_y;
-      return judge(method, factors, trials);
-    });
+    rows +=
+        judge_factors(plane, method.name, x, y, [&](const Factors& factors) { return judge(method, factors, trials); });
   }
   return rows;
 }

@@ -71,6 +71,13 @@ FitMethod on_one_recording(const std::string& name, const std::function<FitAnswe
 
 }  // namespace
 
+bool is_confidently_wrong(const FitAnswer& answer, std::size_t parameter, double truth) {
+  const slipfit::Estimate& estimate = answer.estimates[parameter];
+  if (!answer.sure[parameter] || !estimate.value) return false;
+  const double allowed = std::max(0.02 * truth, 4.0 * estimate.standard_error.value_or(0.0));
+  return !(std::abs(*estimate.value - truth) <= allowed);
+}
+
 FitAnswer fit_features(const Scene& scene) {
   const slipfit::Recording& recording = scene.recording;
   const slipfit::Quality quality = slipfit::assess_quality(recording);

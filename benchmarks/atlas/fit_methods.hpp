@@ -35,6 +35,9 @@ std::vector<FitMethod> fit_methods();
 /// slipfit's fit of Coulomb friction without an average of the sensor, where the two are not asked for.
 FitMethod fit_without_terms();
 
+/// Whether the method calls the parameter known and is off by more than 4 standard errors and 2 %.
+bool is_confidently_wrong(const FitAnswer& answer, std::size_t parameter, double truth);
+
 std::array<double, kFitParameters> truth_of(const Scene& scene);
 
 /// Least squares of all samples at once, by Levenberg-Marquardt with exact derivatives: k, w_n, zeta, F_s - F_k, F_k

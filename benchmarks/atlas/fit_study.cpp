@@ -8,13 +8,7 @@
 namespace atlas {
 namespace {
 
-struct Sweep {
-  std::string name;
-  double Factors::*factor;
-  std::vector<double> values;
-};
-
-std::vector<Sweep> sweeps_of(Effort effort) {
+std::vector<FactorSweep> sweeps_of(Effort effort) {
   const std::size_t count = effort == Effort::Full ? 7 : 3;
   return {{"noise", &Factors::noise, log_spaced(1e-3, 0.3, count)},
           {"jitter", &Factors::jitter, log_spaced(1e-3, 0.3, count)},
@@ -54,8 +48,7 @@ Score score_of(const std::vector<FitAnswer>& answers, std::size_t parameter,
     }
     const double error = *estimate.value / truth - 1.0;
     errors.push_back(error);
-    const double allowed = std::max(0.02, 4.0 * estimate.standard_error.value_or(0.0) / truth);
-    if (answers[i].sure[parameter] && !(std::abs(error) <= allowed)) score.wrong += share;
+    if (is_confidently_wrong(answers[i], parameter, truth)) score.wrong += share;
   }
   score.covered = intervals > 0.0 ? score.covered / intervals : std::nan("");
   score.error = 2.0 * static_cast<double>(errors.size()) >= static_cast<double>(answers.size()) ? robust_size(errors)
@@ -102,14 +95,12 @@ std::vector<File> study_fits(Effort effort) {
   std::string csv =
       "factor,value,method,parameter,trials,relative_error,error_over_bound,coverage,share_none,"
       "share_confidently_wrong,median_cpu_ms\n";
-  std::vector<Sweep> sweeps = sweeps_of(effort);
+  std::vector<FactorSweep> sweeps = sweeps_of(effort);
   sweeps.push_back({"time", &Factors::cycles, {10.0, 40.0, 160.0}});  // error over the bound against time
-  for (const Sweep& sweep : sweeps) {
+  for (const FactorSweep& sweep : sweeps) {
     for (const FitMethod& method : fit_methods()) {
       for (const double value : sweep.values) {
-        Factors factors;
-        factors.*sweep.factor = value;
-        csv += csv_rows(sweep.name, value, method, trials, measure(method, factors, trials));
+        csv += csv_rows(sweep.name, value, method, trials, measure(method, sweep.at(value), trials));
       }
     }
   }

@@ -13,14 +13,7 @@ namespace {
 constexpr double kGross = 0.05;  // relative error beyond which it is another frequency
 constexpr double kLeast = 1e-7;  // the least error that is written
 
-/// One factor varied, the others as usual.
-struct Sweep {
-  std::string name;
-  double Factors::*factor;
-  std::vector<double> values;
-};
-
-std::vector<Sweep> sweeps_of(Effort effort) {
+std::vector<FactorSweep> sweeps_of(Effort effort) {
   const std::size_t count = effort == Effort::Full ? 11 : 5;
   return {{"noise", &Factors::noise, log_spaced(1e-3, 3.0, count)},
           {"jitter", &Factors::jitter, log_spaced(1e-3, 0.3, count)},
@@ -88,10 +81,9 @@ std::vector<File> study_frequency(Effort effort) {
   const std::size_t trials = effort == Effort::Full ? 40 : 9;
   const std::size_t timed_trials = effort == Effort::Full ? 2 * trials : trials;
   std::string csv = "factor,value,method,trials,relative_error,share_none,share_gross,bound,median_cpu_us\n";
-  for (const Sweep& sweep : sweeps_of(effort)) {
+  for (const FactorSweep& sweep : sweeps_of(effort)) {
     for (const double value : sweep.values) {
-      Factors factors;
-      factors.*sweep.factor = value;
+      const Factors factors = sweep.at(value);
       const double bound = bound_of(make_scene(factors, 1000), factors);
       for (const FrequencyMethod& method : frequency_methods()) {
         csv += row(sweep.name, value, method, trials, measure(method, factors, trials), bound);
