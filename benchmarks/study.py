@@ -24,7 +24,7 @@ def run(program, *words, timeout=300):
 
 
 def is_answer(document):
-    return document["status"] not in ("refused", "timeout") if "status" in document else True
+    return document.get("status") not in ("refused", "timeout")
 
 
 Cost = collections.namedtuple("Cost", "wall_s cpu_s peak_MB code out error")

@@ -4,9 +4,9 @@
 front.py SLIPFIT FOLDER [--count N] [--csv FILE] [--scenes A,B]    measures recordings; FOLDER is written by benchmarks/independent/make.py scenes
 front.py SLIPFIT FOLDER --sweeps [--count N] [--csv FILE]          measures alpha of sweeps; FOLDER is written by make.py sweeps
 
-benchmarks/draw.py front draws the table. The time is CPU time: that of slipfit's command minus that of its start, that of the other methods without reading the
-file. The error is the median of the relative errors. The coverage is the share of the 95 % intervals that contain the
-truth; a fit by scipy has the intervals of its own covariance. Needs python3-scipy.
+`benchmarks/draw.py front` draws the table. The time is CPU time: that of slipfit's command minus that of its start, that of
+the other methods without reading the file. The error is the median of the relative errors. The coverage is the share of
+the 95 % intervals that contain the truth; a fit by scipy has the intervals of its own covariance. Needs python3-scipy.
 """
 
 import argparse
