@@ -3,14 +3,13 @@
 
 Builds the program once in FOLDER from a copy of this tree in which every threshold can be set by an environment variable, and runs
 the corpora with one threshold at a time divided and multiplied by the factor, so that its rule always or never acts. A corpus is a
-manifest (its groups are fitted together, too) or a folder of make_scenes.py, make_terms.py, make_sweeps.py, or of surface's make_profiles.py.
+manifest (its groups are fitted together, too) or a folder of make.py scenes, make.py terms, make.py sweeps, or of surface's profiles.py.
 Thresholds of sweeps meet sweeps only, those of predictions the predictions from their fits, those of surfaces profiles only, all others the rest.
 
 One line a threshold and direction, against the answers without a change: documents that differ in any way; in the kind of motion, or a
 refusal; in the status of a parameter; in a value or interval by more than 0.05 standard errors; in their warnings. Where the truth
 is known: right kinds of motion, frequencies within 5 %, intervals that hold the truth and that do not, identified and far off, terms taken
 that are not there (more or fewer than without the change). Last the processor time over that without the change."""
-import argparse
 import collections
 import csv
 import json
@@ -23,7 +22,8 @@ import sys
 
 PROJECT = pathlib.Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(PROJECT / "benchmarks/independent"))
-from evaluate import SHORT, scored  # noqa: E402
+from evaluate import SHORT, score_motion  # noqa: E402
+from study import parser, read_truths  # noqa: E402
 
 CONSTANT = re.compile(r"inline constexpr ([\w:]+) (k\w+) = ([^;]+);")
 CONVERT = """#include <cstdlib>
@@ -79,7 +79,7 @@ class Corpus:
     def __init__(self, path, folder):
         self.truths, self.manifest, self.profiles = {}, path, []
         if path.is_dir():
-            rows = [json.loads(line) for line in open(path / "truth.jsonl")]
+            rows = read_truths(path)
             self.truths = {row.get("id", row.get("file")): row for row in rows if "kind" in row}
             self.profiles = [path / row["file"] for row in rows if "file" in row and "speed_m_per_s" not in row]
             self.manifest = folder / f"{path.name}.csv"
@@ -187,15 +187,10 @@ def scores(answers, truths):
         if "speed_m_per_s" not in truth:
             total.update(profile_scores(document, truth))
             continue
-        row = scored({"status": "refused:" + ("reciprocating" if "stroke" in document else "other")} if isinstance(document, str) else document, truth)
-        total["right"] += row["verdict"]
-        total["f"] += (row["freq"] or {}).get("within", 0)
-        total["extra"] += row.get("extra", 0)
-        for symbol in SHORT.values():
-            found = row.get(symbol, {})
-            total["holds"] += found.get("holds") == 1
-            total["misses"] += found.get("holds") == 0
-            total["wrong"] += found.get("wrong", 0)
+        row = score_motion({"status": "refused:" + ("reciprocating" if "stroke" in document else "other")} if isinstance(document, str) else document, truth)
+        held = [value for symbol in SHORT.values() for value in row[symbol]]
+        total.update({"right": sum(row["verdict"]), "f": sum(row["f 5 %"]), "extra": sum(row["extra"]), "holds": sum(held),
+                      "misses": len(held) - sum(held), "wrong": sum(sum(row[symbol + " !!"]) for symbol in SHORT.values())})
     return total
 
 
@@ -212,13 +207,13 @@ def answered(program, corpora, kind, folder, environment):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("folder", type=pathlib.Path)
-    parser.add_argument("corpora", type=pathlib.Path, nargs="*")
-    parser.add_argument("--factor", type=float, default=1e6)
-    parser.add_argument("--only", default="")
-    parser.add_argument("--out", type=pathlib.Path)
-    given = parser.parse_args()
+    words = parser(__doc__)
+    words.add_argument("folder", type=pathlib.Path)
+    words.add_argument("corpora", type=pathlib.Path, nargs="*")
+    words.add_argument("--factor", type=float, default=1e6)
+    words.add_argument("--only", default="")
+    words.add_argument("--out", type=pathlib.Path)
+    given = words.parse_args()
     given.folder.mkdir(parents=True, exist_ok=True)
     program, plain = build(given.folder), {k: v for k, v in os.environ.items() if not k.startswith("SLIPFIT_")}
     corpora = [Corpus(path, given.folder) for path in given.corpora]

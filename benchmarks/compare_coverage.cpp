@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <boost/math/distributions/normal.hpp>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
@@ -14,9 +13,9 @@
 #include <map>
 #include <random>
 #include <string>
-#include <thread>
 #include <vector>
 
+#include "in_parallel.hpp"
 #include "slipfit/compare.hpp"
 #include "slipfit/model/motion.hpp"
 #include "slipfit/model/simulation.hpp"
@@ -255,18 +254,7 @@ Tallies compare_pair(const Setting& setting, std::uint64_t seed) {
 }
 
 Tallies run(const Setting& setting, std::size_t pairs, std::uint64_t seed, unsigned jobs) {
-  std::atomic<std::size_t> next{0};
-  std::vector<Tallies> parts(jobs);
-  std::vector<std::thread> threads;
-  for (unsigned job = 0; job < jobs; ++job) {
-    threads.emplace_back([&, job] {
-      for (std::size_t i = next++; i < pairs; i = next++) {
-        const Tallies one = compare_pair(setting, seed + i);
-        for (std::size_t k = 0; k < one.size(); ++k) parts[job][k].add(one[k]);
-      }
-    });
-  }
-  for (std::thread& thread : threads) thread.join();
+  const auto parts = in_parallel(pairs, jobs, [&](std::size_t i) { return compare_pair(setting, seed + i); });
   Tallies sum;
   for (const Tallies& part : parts) {
     for (std::size_t k = 0; k < sum.size(); ++k) sum[k].add(part[k]);

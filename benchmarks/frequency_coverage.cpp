@@ -72,23 +72,16 @@ int main(int count, char** words) {
       "# error: 68 % of the recordings have a smaller one, relative; covered: %\n"
       "scene,recordings,quoted_error,quoted_covered,fitted_error,fitted_covered,spectrum_error,spectrum_covered,"
       "quoted_from_spectrum_percent\n");
-  const auto with = [](double Factors::*factor, double value) {
-    Factors factors;
-    factors.*factor = value;
-    return factors;
-  };
-  for (const double cycles : {6.0, 10.0, 20.0, 40.0, 100.0, 300.0}) {
-    study(fmt::format("regular {} cycles", cycles), with(&Factors::cycles, cycles), recordings, seed);
-  }
-  for (const double noise : {0.002, 0.1})
-    study(fmt::format("noise {}", noise), with(&Factors::noise, noise), recordings, seed);
-  for (const double samples : {3.0, 8.0}) {
-    study(fmt::format("{} samples per slip", samples), with(&Factors::samples_per_slip, samples), recordings, seed);
-  }
-  for (const double drift : {3.0, 30.0})
-    study(fmt::format("drift {}", drift), with(&Factors::drift, drift), recordings, seed);
-  for (const double hum : {0.02, 0.1}) study(fmt::format("hum {}", hum), with(&Factors::hum, hum), recordings, seed);
-  for (const double jitter : {0.0001, 0.0002, 0.0005, 0.001, 0.002, 0.005, 0.02, 0.05, 0.15}) {
-    study(fmt::format("jitter {}", jitter), with(&Factors::jitter, jitter), recordings, seed);
+  const std::vector<atlas::FactorSweep> sweeps{
+      {"regular {:g} cycles", &Factors::cycles, {6.0, 10.0, 20.0, 40.0, 100.0, 300.0}},
+      {"noise {:g}", &Factors::noise, {0.002, 0.1}},
+      {"{:g} samples per slip", &Factors::samples_per_slip, {3.0, 8.0}},
+      {"drift {:g}", &Factors::drift, {3.0, 30.0}},
+      {"hum {:g}", &Factors::hum, {0.02, 0.1}},
+      {"jitter {:g}", &Factors::jitter, {0.0001, 0.0002, 0.0005, 0.001, 0.002, 0.005, 0.02, 0.05, 0.15}}};
+  for (const atlas::FactorSweep& sweep : sweeps) {
+    for (const double value : sweep.values) {
+      study(fmt::format(fmt::runtime(sweep.name), value), sweep.at(value), recordings, seed);
+    }
   }
 }

@@ -1,24 +1,26 @@
 #!/usr/bin/env python3
-"""How the time and memory of a whole `slipfit fit` grow with the samples: command_ratio on simulated recordings of 10^4
-to 10^7 samples, 407 to a cycle, static friction that scatters by 5 %, noise of 1 % of F_s - F_k.
+"""What a whole `slipfit fit` costs over the floor of reading the file at all: parsing its two columns with fast-cpp-csv-parser and one FFT of that
+length, measured in turn (medians). In processor time too, which other users of the machine move less but in which threads add up; and memory.
 
-growth.py SLIPFIT COMMAND_RATIO [--largest 7] [--cycle-samples 407]
+growth.py SLIPFIT FLOOR [--largest 7] [--cycle-samples 407]     how it grows with the samples: simulated recordings of 10^4 to 10^7 samples, static
+                                                                friction that scatters by 5 %, noise of 1 % of F_s - F_k
+growth.py SLIPFIT FLOOR --file FILE --speed 10mm/s [--runs 15]  one recording: a names row, then time and force separated by a comma
 
-Prints a line for each size and the power of the samples with which the processor time grows (least squares of the
-logarithms; the steps between sizes too). The recordings, 200 MB at 10^7, are made in a folder that goes again.
-"""
-
-import argparse
-import math
+FLOOR: the program of floor.cpp. Prints a line for each recording and the power of the samples with which the processor time grows (least squares of
+the logarithms; the steps between sizes too). The recordings, 200 MB at 10^7, are made in a folder that is deleted."""
 import pathlib
+import statistics
 import subprocess
 import tempfile
+
+import numpy
+
+from study import cost, parser
 
 MODEL = ("--stiffness 5000 --natural-frequency 900 --damping-ratio 0.05 --static-friction 4 --kinetic-friction 3 "
          "--sample-rate 10000 --noise 0.01 --jitter 0.05 --seed 7").split()
 PERIOD_S = 0.0407  # at 10 mm/s
-KEYS = ["samples", "whole_command_ms", "ratio_median", "processor_ms", "processor_ratio_median",
-        "bytes_a_sample_above_60_MB"]
+KEYS = ("samples", "parse_ms", "transform_ms", "whole_command_ms", "ratio", "processor_ms", "processor_ratio", "peak_memory_MB", "bytes_a_sample_above_60_MB")
 
 
 def simulate(slipfit, samples, speed_m_per_s, file):
@@ -33,36 +35,48 @@ def simulate(slipfit, samples, speed_m_per_s, file):
         run.stdout.read()
 
 
-def measure(ratio, slipfit, file, speed_m_per_s, runs):
-    run = subprocess.run([ratio, slipfit, file, f"{speed_m_per_s} m/s", str(runs)], capture_output=True, text=True,
-                         check=True)
-    return dict(line.split(maxsplit=1) for line in run.stdout.splitlines())
+def measure(slipfit, floor, file, speed, runs):
+    """The values of KEYS."""
+    found, peak_MB = [], 0.0
+    for _ in range(runs + 1):
+        samples, parse_ms, transform_ms, floor_ms = map(float, cost(floor, file).out.split())
+        whole = cost(slipfit, "fit", file, "--speed", speed, "--json")
+        if whole.code != 0:
+            raise SystemExit(f"growth.py: {whole.error}")
+        found.append((parse_ms, transform_ms, 1e3 * whole.wall_s, 1e3 * whole.wall_s / (parse_ms + transform_ms), 1e3 * whole.cpu_s,
+                      1e3 * whole.cpu_s / floor_ms))
+        peak_MB = max(peak_MB, whole.peak_MB)
+    medians = [statistics.median(values) for values in zip(*found[1:])]  # the first warms up
+    return (samples, *medians, peak_MB, max(0.0, (peak_MB - 60.0) * 1048576.0 / samples))
 
 
 def slope(points):
-    x = [math.log(samples) for samples, _ in points]
-    y = [math.log(ms) for _, ms in points]
-    mean_x, mean_y = sum(x) / len(x), sum(y) / len(y)
-    return sum((a - mean_x) * (b - mean_y) for a, b in zip(x, y)) / sum((a - mean_x) ** 2 for a in x)
+    return numpy.polyfit(*numpy.log(numpy.transpose(points)), 1)[0]
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("slipfit")
-    parser.add_argument("command_ratio")
-    parser.add_argument("--largest", type=int, default=7, help="power of ten")
-    parser.add_argument("--cycle-samples", type=float, default=407.0)
-    arguments = parser.parse_args()
-    speed_m_per_s = round(0.01 * PERIOD_S * 10000 / arguments.cycle_samples, 6)
-    points = []
+    words = parser(__doc__)
+    words.add_argument("slipfit")
+    words.add_argument("floor")
+    words.add_argument("--largest", type=int, default=7, help="power of ten")
+    words.add_argument("--cycle-samples", type=float, default=407.0)
+    words.add_argument("--file")
+    words.add_argument("--speed", default="10mm/s")
+    words.add_argument("--runs", type=int, default=15)
+    given = words.parse_args()
     print(",".join(KEYS), flush=True)
+    if given.file:
+        print(",".join(f"{value:.4g}" for value in measure(given.slipfit, given.floor, given.file, given.speed, given.runs)))
+        return
+    speed_m_per_s = round(0.01 * PERIOD_S * 10000 / given.cycle_samples, 6)
+    points = []
     with tempfile.TemporaryDirectory() as folder:
-        file = str(pathlib.Path(folder) / "recording.csv")
-        for power in range(4, arguments.largest + 1):
-            simulate(arguments.slipfit, 10 ** power, speed_m_per_s, file)
-            found = measure(arguments.command_ratio, arguments.slipfit, file, speed_m_per_s, 3 if power > 6 else 7)
-            print(",".join(found[key] for key in KEYS), flush=True)
-            points.append((float(found["samples"]), float(found["processor_ms"])))
+        file = pathlib.Path(folder) / "recording.csv"
+        for power in range(4, given.largest + 1):
+            simulate(given.slipfit, 10 ** power, speed_m_per_s, file)
+            found = measure(given.slipfit, given.floor, file, f"{speed_m_per_s} m/s", 3 if power > 6 else 7)
+            print(",".join(f"{value:.4g}" for value in found), flush=True)
+            points.append((found[0], found[KEYS.index("processor_ms")]))
     for first, second in zip(points, points[1:]):
         print(f"{first[0]:.0f} to {second[0]:.0f}: power {slope([first, second]):.3f}")
     print(f"processor time grows as samples to the power {slope(points):.3f}")

@@ -1,4 +1,4 @@
-// Speed of the model layer (Google Benchmark). docs/validation.md quotes what it prints.
+// Speed of the model layer and of whole analyses (Google Benchmark). docs/validation.md quotes what it prints.
 
 #include <benchmark/benchmark.h>
 
@@ -15,9 +15,10 @@
 #include "slipfit/model/motion.hpp"
 #include "slipfit/model/paper.hpp"
 #include "slipfit/model/sensitivity.hpp"
+#include "slipfit/pipeline.hpp"
 #include "slipfit/predict/prediction.hpp"
 #include "support/velocity_motion.hpp"
-#include "support/waveform.hpp"
+#include "usual_recording.hpp"
 
 namespace {
 
@@ -112,42 +113,6 @@ void velocity_track_sample(benchmark::State& state) {
   std::size_t i = 0;
   for (auto _ : state) benchmark::DoNotOptimize(track->at(step * static_cast<double>(++i % 1000)));
 }
-/// One sample of a slip in the waveform of the exact tier.
-void velocity_waveform_sample(benchmark::State& state) {
-  const VelocityScene scene = velocity_scenes().front();
-  const double slip_s = velocity_motion(scene.slider, scene.friction, 1.0).value().motion.cycle->slip_s;
-  std::vector<double> time_s;
-  for (int i = 0; i < 1000; ++i) time_s.push_back(slip_s * i / 1000.0);
-  for (auto _ : state) benchmark::DoNotOptimize(velocity_waveform(scene.slider, scene.friction, 1.0, time_s));
-  state.counters["per_sample"] = benchmark::Counter(1000.0 * static_cast<double>(state.iterations()),
-                                                    benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
-}
-
-constexpr std::size_t kSamples = 100000;
-
-Scene waveform_scene(benchmark::State& state) {
-  return {Slider::create(1.0, 1.0, 0.05).value(), Friction::create(static_cast<double>(state.range(0)), 0.0).value()};
-}
-void count_samples(benchmark::State& state) {
-  state.counters["per_sample"] =
-      benchmark::Counter(static_cast<double>(kSamples) * static_cast<double>(state.iterations()),
-                         benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
-}
-
-void waveform(benchmark::State& state) {
-  const Scene s = waveform_scene(state);
-  for (auto _ : state) {
-    benchmark::DoNotOptimize(damped_waveform(s.slider, s.friction, 1.0, ForceView::Spring, {0.0, 0.1, kSamples}));
-  }
-  count_samples(state);
-}
-void waveform_with_derivatives(benchmark::State& state) {
-  const Scene s = waveform_scene(state);
-  for (auto _ : state) {
-    benchmark::DoNotOptimize(damped_waveform_sensitivity(s.slider, s.friction, 1.0, {0.0, 0.1, kSamples}));
-  }
-  count_samples(state);
-}
 
 // The slips of the fit, as an instrument shows them, with their derivatives. Of a slip of lambda 20 and zeta 0.05 one
 // cycle is solved, or one sample is asked at even steps; an average is 2 / w_n long, the slip distance 0.2 of
@@ -161,7 +126,7 @@ fit::Sensor averaging(double average_tau) {
   return sensor;
 }
 fit::CoulombCycle coulomb_cycle(double average_tau) {
-  return {kLambda - 2.0 * kZeta, kZeta, averaging(average_tau)};
+  return {kLambda - 2.0 * kZeta, kZeta, averaging(average_tau), ForceView::Spring};
 }
 fit::WeakeningCycle weakening_cycle(double average_tau) {
   fit::Scales scales;
@@ -218,6 +183,22 @@ void limit_cycle(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(predict::motion_at(model, 1e-3));
 }
 
+/// Quality, slips, frequency, all Coulomb tiers, kind of motion; 400 samples a cycle.
+void analysis_and_fit(benchmark::State& state) {
+  const Recording recording = usual_recording(static_cast<double>(state.range(0)), 400.0);
+  double fit_s = 0.0;
+  for (auto _ : state) {
+    const Analysis analysis = analyze_and_fit(recording);
+    fit_s += analysis.timing.fit_s;
+    benchmark::DoNotOptimize(&analysis);
+  }
+  state.counters["fit_ms"] = 1e3 * fit_s / static_cast<double>(state.iterations());
+  state.counters["us_per_cycle"] =
+      benchmark::Counter(static_cast<double>(state.range(0)) * 1e-6,
+                         benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+
+BENCHMARK(analysis_and_fit)->Arg(50)->Arg(200)->Arg(1000)->Arg(5000)->Arg(10000)->Unit(benchmark::kMillisecond);
 BENCHMARK(coulomb_solved)->Arg(0)->Arg(2);
 BENCHMARK(coulomb_sample)->Arg(0)->Arg(2);
 BENCHMARK(weakening_solved)->Arg(0)->Arg(2);
@@ -231,9 +212,6 @@ BENCHMARK(velocity_cycle);
 BENCHMARK(velocity_cycle_with_derivatives);
 BENCHMARK(velocity_track_solved);
 BENCHMARK(velocity_track_sample);
-BENCHMARK(velocity_waveform_sample);
-BENCHMARK(waveform)->Arg(2)->Arg(20);
-BENCHMARK(waveform_with_derivatives)->Arg(2)->Arg(20);
 
 }  // namespace
 

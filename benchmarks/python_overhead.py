@@ -8,61 +8,41 @@ same again and again; outside_ms the part of array_ms outside of the C++ call; c
 beyond_ms = overhead_ms + outside_ms + copy_ms: what a user of Python waits longer than one of C++ (who checks the samples by the same call);
 stiffness_ms the first number read from the result (the document made and parsed); threads: fits a second with one thread and with two."""
 
-import argparse
-import concurrent.futures
-import json
 import pathlib
 import statistics
-import subprocess
-import sys
 import time
 
+import numpy
 import slipfit as sf
 from slipfit import _slipfit
+
+from study import in_parallel, parser, run
 
 DEMO = pathlib.Path(__file__).resolve().parents[1] / "testdata" / "demo.csv"
 
 
-class Spent:
-    """Milliseconds: by the clock, and on the processor by this thread."""
-
-    def __init__(self, wall=0.0, cpu=0.0):
-        self.wall, self.cpu = wall, cpu
-
-    @staticmethod
-    def now():
-        return Spent(1e3 * time.perf_counter(), 1e3 * time.thread_time())
-
-    def __add__(self, other):
-        return Spent(self.wall + other.wall, self.cpu + other.cpu)
-
-    def __sub__(self, other):
-        return Spent(self.wall - other.wall, self.cpu - other.cpu)
+def now():
+    """Milliseconds by the clock, and on the processor by this thread."""
+    return 1e3 * numpy.array([time.perf_counter(), time.thread_time()])
 
 
 def timed(work):
-    begin = Spent.now()
+    begin = now()
     result = work()
-    return Spent.now() - begin, result
-
-
-def by_subprocess(program):
-    run = subprocess.run([program, "fit", str(DEMO), "--speed", "10mm/s", "--json"], capture_output=True, text=True, check=True)
-    return json.loads(run.stdout)
+    return now() - begin, result
 
 
 def fits_per_second(recording, threads, fits):
-    with concurrent.futures.ThreadPoolExecutor(threads) as pool:
-        begin = time.perf_counter()
-        list(pool.map(lambda _: sf.fit(recording), range(fits)))
-        return fits / (time.perf_counter() - begin)
+    begin = time.perf_counter()
+    in_parallel(threads, lambda _: sf.fit(recording), range(fits))
+    return fits / (time.perf_counter() - begin)
 
 
 class Inside:
     """A function of the extension, and the milliseconds of its last call."""
 
     def __init__(self, name):
-        self.function, self.spent = getattr(_slipfit, name), Spent()
+        self.function, self.spent = getattr(_slipfit, name), numpy.zeros(2)
         setattr(_slipfit, name, self.call)
 
     def call(self, *arguments):
@@ -71,10 +51,10 @@ class Inside:
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("program")
-    parser.add_argument("--fits", type=int, default=60)
-    arguments = parser.parse_args()
+    words = parser(__doc__)
+    words.add_argument("program")
+    words.add_argument("--fits", type=int, default=60)
+    arguments = words.parse_args()
     recording = sf.read_recording(DEMO, speed="10 mm/s")
     recorded = (recording.time.copy(), recording.force.copy())
     fitting, taking = Inside("fit"), Inside("take_arrays")
@@ -88,7 +68,7 @@ def main():
         columns["stiffness_ms"].append(timed(lambda: fit.stiffness)[0])
         columns["curve_ms"].append(timed(lambda: fit.curve)[0])
         columns["read_and_fit_ms"].append(timed(lambda: sf.fit(sf.read_recording(DEMO, speed="10 mm/s")).to_dict())[0])
-        columns["subprocess_ms"].append(timed(lambda: by_subprocess(arguments.program))[0])
+        columns["subprocess_ms"].append(timed(lambda: run(arguments.program, "fit", DEMO, "--speed", "10mm/s"))[0])
         columns["copy_ms"].append(timed(lambda: (recorded[0].copy(), recorded[1].copy()))[0])  # as the extension does
         columns["beyond_ms"].append(columns["overhead_ms"][-1] + columns["outside_ms"][-1] + columns["copy_ms"][-1])
     for _ in range(50 * arguments.fits):
@@ -96,11 +76,11 @@ def main():
     print("quantity,lower_quartile,median,upper_quartile,cpu_median")
     print(f"samples,,{len(recording)},,")
     for name, values in columns.items():
-        quartiles = statistics.quantiles((one.wall for one in values), n=4)
-        print(name, *(f"{value:.3f}" for value in (*quartiles, statistics.median(one.cpu for one in values))), sep=",")
+        wall, cpu = zip(*values)
+        print(name, *(f"{value:.3f}" for value in (*statistics.quantiles(wall, n=4), statistics.median(cpu))), sep=",")
     for threads in (1, 2):
         print(f"fits_per_second_{threads}_threads,,{fits_per_second(recording, threads, 4 * arguments.fits):.1f},,")
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    main()

@@ -9,18 +9,16 @@ With --instructions these are counted by valgrind in place of the seconds, in 10
 the check_shapes target does, which does not depend on who else uses the machine. Needs numpy. No recording costs more than three times the ordinary one: exit 1 where one does.
 """
 
-import argparse
 import json
 import math
-import os
 import pathlib
 import re
-import resource
-import subprocess
 import sys
 import tempfile
 
 import numpy
+
+from study import cost, parser
 
 RATE_HZ = 10000.0
 SPEED = "10mm/s"
@@ -133,27 +131,20 @@ def write(made, file):
 
 def measure(command, file, limit_s):
     """Processor seconds or instructions in 10^9, MB, kind of motion."""
-    run = subprocess.Popen([*command, "fit", str(file), "--speed", SPEED, "--json", "--quiet"], stdout=subprocess.PIPE,
-                           stderr=subprocess.PIPE,
-                           preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (limit_s, limit_s)))
-    out = run.stdout.read()
-    error = run.stderr.read().decode().strip()
-    _, status, usage = os.wait4(run.pid, 0)
-    run.returncode = status
-    motion = json.loads(out)["status"] if out else "refused" if error else "not ended"
-    counted = re.search(r"I +refs: +([0-9,]+)", error)
-    cost = 1e-9 * int(counted[1].replace(",", "")) if counted else usage.ru_utime + usage.ru_stime
-    return cost, usage.ru_maxrss / 1024.0, motion
+    done = cost(*command, "fit", file, "--speed", SPEED, "--json", "--quiet", limit_s=limit_s)
+    motion = json.loads(done.out)["status"] if done.out else "refused" if done.error.strip() else "not ended"
+    counted = re.search(r"I +refs: +([0-9,]+)", done.error)
+    return 1e-9 * int(counted[1].replace(",", "")) if counted else done.cpu_s, done.peak_MB, motion
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("slipfit")
-    parser.add_argument("--rows", type=int, default=1000000)
-    parser.add_argument("--limit", type=int, default=120, help="processor seconds")
-    parser.add_argument("--instructions", action="store_true")
-    parser.add_argument("--only", help="names, separated by commas")
-    arguments = parser.parse_args()
+    words = parser(__doc__)
+    words.add_argument("slipfit")
+    words.add_argument("--rows", type=int, default=1000000)
+    words.add_argument("--limit", type=int, default=120, help="processor seconds")
+    words.add_argument("--instructions", action="store_true")
+    words.add_argument("--only", help="names, separated by commas")
+    arguments = words.parse_args()
     made = shapes(arguments.rows)
     command, runs = ([*COUNTING, arguments.slipfit], 1) if arguments.instructions else ([arguments.slipfit], 3)
     names = list(made) if not arguments.only else ["ordinary", *arguments.only.split(",")]

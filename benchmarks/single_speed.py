@@ -6,7 +6,6 @@ predicted at the speeds of the others. A band is held against V / f of slipfit a
 authors published. Skips, and says so, without the folder.
 Simulated: constant friction, so that a prediction from one speed is right; bands against those of OTHER (an earlier build), and
 how many hold the spacing of the model."""
-import argparse
 import csv
 import json
 import math
@@ -14,15 +13,18 @@ import pathlib
 import subprocess
 import tempfile
 
+from study import is_answer, parser, run
+
 SPEEDS_MM_MIN = (10, 30, 50, 100, 150, 200, 300, 400)
 WAYS = {"as it is": [], "mass": ["--mass"], "mass, zeta = 0.05": ["--mass", "--fix", "damping_ratio=0.05"],
         "mass, zeta = 0.2": ["--mass", "--fix", "damping_ratio=0.2"], "zeta = 0.1": ["--fix", "damping_ratio=0.1"],
         "w_n from k and m": ["--fix", "natural_frequency", "--fix", "damping_ratio=0.1"]}
 
 
-def run(program, *arguments):
-    done = subprocess.run([program, *map(str, arguments), "--json", "--quiet"], capture_output=True, text=True, check=False)
-    return json.loads(done.stdout) if done.returncode == 0 else None
+def answer(program, *words):
+    """The document; None where the program refuses."""
+    document = run(program, *words, "--quiet")
+    return document if is_answer(document) else None
 
 
 def predicted(program, document, speeds):
@@ -30,8 +32,8 @@ def predicted(program, document, speeds):
     with tempfile.NamedTemporaryFile("w", suffix=".json") as file:
         json.dump(document, file)
         file.flush()
-        answer = run(program, "predict", file.name, "--speeds", ",".join(speeds))
-    return answer["rows"] if answer else None
+        found = answer(program, "predict", file.name, "--speeds", ",".join(speeds))
+    return found["rows"] if found else None
 
 
 def options_of(way, mass_g):
@@ -55,7 +57,7 @@ def measured(program, folder):
         tally = {}
         sources = 0
         for mass in (77, 232):
-            documents = {v: run(program, "fit", folder / f"fdm_{mass}g_{v}mm_min.csv", "--speed", f"{v}mm/min", *options_of(way, mass))
+            documents = {v: answer(program, "fit", folder / f"fdm_{mass}g_{v}mm_min.csv", "--speed", f"{v}mm/min", *options_of(way, mass))
                          for v in SPEEDS_MM_MIN}
             for own in SPEEDS_MM_MIN:
                 rows = predicted(program, documents[own], [f"{v}mm/min" for v in SPEEDS_MM_MIN]) if documents[own] else None
@@ -89,10 +91,10 @@ def simulated(program, reference):
             file = pathlib.Path(folder) / "run.csv"
             subprocess.run([program, "simulate", *map(str, model), "--speed", str(speed), "--duration", "2", "--sample-rate", "10000",
                             "--noise", "0.01", "--jitter", "0.05", "--seed", str(seed), "--out", str(file), "--quiet"], check=True, capture_output=True)
-            document = run(program, "fit", file, "--speed", speed)
+            document = answer(program, "fit", file, "--speed", speed)
         ratios = (0.1, 0.25, 0.5, 0.7, 1.4, 2, 4, 10)
         speeds = [f"{speed * r:.6g}" for r in ratios]
-        truth = run(program, "predict", *model, "--speeds", ",".join(speeds))["rows"]
+        truth = answer(program, "predict", *model, "--speeds", ",".join(speeds))["rows"]
         rows = {name: predicted(build, document, speeds) for name, build in (("new", program), ("old", reference)) if build}
         for i, ratio in enumerate(ratios):
             true = truth[i]["periodic_displacement_m"]["value"]
@@ -109,11 +111,11 @@ def simulated(program, reference):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("program")
-    parser.add_argument("--shared", type=pathlib.Path, default=pathlib.Path(__file__).parents[2] / "shared")
-    parser.add_argument("--reference")
-    arguments = parser.parse_args()
+    words = parser(__doc__)
+    words.add_argument("program")
+    words.add_argument("--shared", type=pathlib.Path, default=pathlib.Path(__file__).parents[2] / "shared")
+    words.add_argument("--reference")
+    arguments = words.parse_args()
     folder = arguments.shared / "data/real/fdm"
     if folder.is_dir():
         measured(arguments.program, folder)

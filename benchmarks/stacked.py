@@ -19,6 +19,8 @@ import tempfile
 
 import numpy
 
+from draw import save, use_matplotlib
+
 BINS = 12
 MARGIN = 0.15
 TERMS = {"sensor_average_s": ("W", 1e3, "ms"), "slip_distance_m": ("D_c", 1e6, "um"), "reload_force_N": ("A", 1e3, "mN"),
@@ -137,10 +139,7 @@ def table(manifest, builds):
 
 
 def draw(out, slipfit, file, speed, groups):
-    import matplotlib
-    matplotlib.use("svg")
-    matplotlib.rcParams["svg.hashsalt"] = "stacked"
-    from matplotlib import pyplot
+    pyplot = use_matplotlib(10)
     figure, axes = pyplot.subplots(2, 2, sharex="col", figsize=(10, 5.5), height_ratios=(3, 2))
     slips = None
     for options, colour in zip(groups, ("#d55e00", "#0072b2", "#009e73")):
@@ -162,7 +161,7 @@ def draw(out, slipfit, file, speed, groups):
         axis.set_ylabel("left over, % of the fall")
         axis.set_xlabel("phase of the " + phase)
     figure.tight_layout(rect=(0.0, 0.0, 1.0, 0.88))
-    figure.savefig(out, metadata={"Date": None})
+    save(figure, out)
 
 
 def main():

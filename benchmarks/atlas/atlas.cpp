@@ -1,4 +1,4 @@
-// Speed against accuracy of methods, and where each of them fails: writes CSV and SVG. docs/validation.md shows them.
+// Speed against accuracy of methods, and where each of them fails: writes CSV, which draw.py draws.
 
 #include <fmt/format.h>
 
@@ -24,7 +24,7 @@ int main(int argc, char** argv) {
   for (const auto& [name, study] : studies) chosen.push_back(name);
   CLI::App program("Speed against accuracy of methods, and where each of them fails");
   program.add_flag("--quick", quick, "A coarse grid: under a minute");
-  program.add_option("--out", out, "Folder for CSV and SVG")->capture_default_str();
+  program.add_option("--out", out, "Folder for CSV")->capture_default_str();
   program.add_option("--only", chosen, "Studies to run")->check(CLI::IsMember(chosen));
   CLI11_PARSE(program, argc, argv);
   std::filesystem::create_directories(out);

@@ -35,6 +35,16 @@ std::string judge_plane(const Plane& plane, const std::string& method, const Jud
   return rows;
 }
 
+std::string judge_factors(const Plane& plane, const std::string& method, double Factors::*x, double Factors::*y,
+                          const std::function<Mark(const Factors&)>& judge) {
+  return judge_plane(plane, method, [&](double at_x, double at_y) {
+    Factors factors;
+    factors.*x = at_x;
+    factors.*y = at_y;
+    return judge(factors);
+  });
+}
+
 std::vector<File> map_failures(Effort effort) {
   return {{"failures.csv", failure_columns() + map_forward_failures(effort) + map_frequency_failures(effort) +
                                map_fit_failures(effort)}};

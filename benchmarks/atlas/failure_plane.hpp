@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "scenes.hpp"
 #include "study.hpp"
 
 namespace atlas {
@@ -16,7 +17,7 @@ enum class Mark {
   Wrong     ///< the answer is wrong, and the method does not warn
 };
 
-/// A plane of two factors over which methods are compared; draw_failures.py holds its title and labels.
+/// A plane of two factors over which methods are compared; draw.py holds its title and labels.
 struct Plane {
   std::string name;
   std::vector<double> x, y;
@@ -29,6 +30,10 @@ std::string failure_columns();
 
 /// Rows of the table of failures: one for each point of the plane.
 std::string judge_plane(const Plane& plane, const std::string& method, const Judge& judge);
+
+/// The same over two factors of recordings.
+std::string judge_factors(const Plane& plane, const std::string& method, double Factors::*x, double Factors::*y,
+                          const std::function<Mark(const Factors&)>& judge);
 
 /// Rows of the failure maps of forward methods, of frequency methods and of fits.
 std::string map_forward_failures(Effort effort);

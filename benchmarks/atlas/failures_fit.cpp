@@ -9,21 +9,13 @@ namespace {
 
 constexpr double kTolerated = 0.11;  // share of wrong trials below which a cell is called right
 
-/// True if the method calls the parameter identified and is off by more than 4 standard errors and 2 %.
-bool confidently_wrong(const FitAnswer& answer, std::size_t parameter, double truth) {
-  const slipfit::Estimate& estimate = answer.estimates[parameter];
-  if (!answer.sure[parameter] || !estimate.value) return false;
-  const double allowed = std::max(0.02 * truth, 4.0 * estimate.standard_error.value_or(0.0));
-  return !(std::abs(*estimate.value - truth) <= allowed);
-}
-
 Mark judge(const FitMethod& method, const Factors& factors, std::size_t trials) {
   std::size_t none = 0, unsure = 0, wrong = 0;
   for (std::size_t i = 0; i < trials; ++i) {
     const FitAnswer answer = method.run(factors, 7000 + i).answer;
     const auto truth = truth_of(make_scene(factors, 7000 + i));
     bool any_wrong = false;
-    for (std::size_t p = 0; p < kFitParameters; ++p) any_wrong = any_wrong || confidently_wrong(answer, p, truth[p]);
+    for (std::size_t p = 0; p < kFitParameters; ++p) any_wrong = any_wrong || is_confidently_wrong(answer, p, truth[p]);
     wrong += any_wrong ? 1U : 0U;
     none += answer.estimates[kFrequencyOf].value ? 0U : 1U;
     unsure += answer.sure[kFrequencyOf] ? 0U : 1U;
@@ -51,12 +43,8 @@ std::string over(const Plane& plane, double Factors::*x, double Factors::*y, con
                  std::size_t trials) {
   std::string rows;
   for (const FitMethod& method : methods) {
-    rows += judge_plane(plane, method.look.name, [&](double at_x, double at_y) {
-      Factors factors;
-      factors.*x = at_x;
-      factors.*y = at_y;
-      return judge(method, factors, trials);
-    });
+    rows +=
+        judge_factors(plane, method.name, x, y, [&](const Factors& factors) { return judge(method, factors, trials); });
   }
   return rows;
 }
@@ -80,7 +68,7 @@ std::string false_minima(Effort effort, std::size_t trials) {
   const FitMethod blocks = fit_methods()[4];
   std::vector<Mark> own;
   for (const double cycles : plane.y) own.push_back(judged(blocks, cycles));
-  return rows + judge_plane(plane, blocks.look.name, [&](double, double cycles) {
+  return rows + judge_plane(plane, blocks.name, [&](double, double cycles) {
            const auto at = std::find(plane.y.begin(), plane.y.end(), cycles);
            return own[static_cast<std::size_t>(at - plane.y.begin())];
          });

@@ -32,13 +32,9 @@ Mark judge(const FrequencyMethod& method, const Factors& factors, std::size_t tr
 std::string over(const Plane& plane, double Factors::*x, double Factors::*y, std::size_t trials) {
   std::string rows;
   for (const FrequencyMethod& method : frequency_methods()) {
-    if (method.look.name == "FFT peak") continue;  // as the interpolated one
-    rows += judge_plane(plane, method.look.name, [&](double at_x, double at_y) {
-      Factors factors;
-      factors.*x = at_x;
-      factors.*y = at_y;
-      return judge(method, factors, trials);
-    });
+    if (method.name == "FFT peak") continue;  // as the interpolated one
+    rows +=
+        judge_factors(plane, method.name, x, y, [&](const Factors& factors) { return judge(method, factors, trials); });
   }
   return rows;
 }

@@ -60,8 +60,8 @@ TimedFit run_sweep(const Factors& factors, std::uint64_t seed) {
   return {sweep.fit ? read_parameters(sweep.fit->result.parameters) : FitAnswer{}, time_s};
 }
 
-FitMethod on_one_recording(const Look& look, const std::function<FitAnswer(const Scene&, std::uint64_t)>& fit) {
-  return {look, [fit](const Factors& factors, std::uint64_t seed) {
+FitMethod on_one_recording(const std::string& name, const std::function<FitAnswer(const Scene&, std::uint64_t)>& fit) {
+  return {name, [fit](const Factors& factors, std::uint64_t seed) {
             const Scene scene = make_scene(factors, seed);
             const double start_s = cpu_now_s();
             FitAnswer answer = fit(scene, seed);
@@ -70,6 +70,13 @@ FitMethod on_one_recording(const Look& look, const std::function<FitAnswer(const
 }
 
 }  // namespace
+
+bool is_confidently_wrong(const FitAnswer& answer, std::size_t parameter, double truth) {
+  const slipfit::Estimate& estimate = answer.estimates[parameter];
+  if (!answer.sure[parameter] || !estimate.value) return false;
+  const double allowed = std::max(0.02 * truth, 4.0 * estimate.standard_error.value_or(0.0));
+  return !(std::abs(*estimate.value - truth) <= allowed);
+}
 
 FitAnswer fit_features(const Scene& scene) {
   const slipfit::Recording& recording = scene.recording;
@@ -98,21 +105,17 @@ FitAnswer fit_features(const Scene& scene) {
 }
 
 std::vector<FitMethod> fit_methods() {
-  using chart::Colour, chart::Shape, chart::Stroke;
   const auto whole_trace = [](double start_error) {
     return [start_error](const Scene& scene, std::uint64_t seed) { return fit_whole_trace(scene, start_error, seed); };
   };
-  return {on_one_recording({"features: slopes, drops, falls", Colour::Grey, Shape::Cross, Stroke::Solid},
+  return {on_one_recording("features: slopes, drops, falls",
                            [](const Scene& scene, std::uint64_t) { return fit_features(scene); }),
-          on_one_recording({"whole trace, start off by 0.1 %", Colour::SkyBlue, Shape::Triangle, Stroke::Dashed},
-                           whole_trace(0.001)),
-          on_one_recording({"whole trace, start off by 1 %", Colour::Purple, Shape::Triangle, Stroke::Dotted},
-                           whole_trace(0.01)),
-          on_one_recording({"whole trace, start off by 10 %", Colour::Orange, Shape::Triangle, Stroke::DashDotted},
-                           whole_trace(0.1)),
-          on_one_recording({"cycles as blocks (slipfit fit)", Colour::Black, Shape::Dot, Stroke::Solid},
+          on_one_recording("whole trace, start off by 0.1 %", whole_trace(0.001)),
+          on_one_recording("whole trace, start off by 1 %", whole_trace(0.01)),
+          on_one_recording("whole trace, start off by 10 %", whole_trace(0.1)),
+          on_one_recording("cycles as blocks (slipfit fit)",
                            [](const Scene& scene, std::uint64_t) { return fit_blocks(scene); }),
-          {{"three speeds jointly (slipfit fit --joint)", Colour::Blue, Shape::Ring, Stroke::Solid}, run_sweep}};
+          {"three speeds jointly (slipfit fit --joint)", run_sweep}};
 }
 
 FitMethod fit_without_terms() {
@@ -128,7 +131,7 @@ FitMethod fit_without_terms() {
     const slipfit::Analysis analysis = slipfit::analyze_and_fit(recording.value(), options);
     return analysis.fit ? read_parameters(analysis.fit->parameters) : FitAnswer{};
   };
-  return on_one_recording({"cycles as blocks, Coulomb friction alone", chart::Colour::Grey}, fit);
+  return on_one_recording("cycles as blocks, Coulomb friction alone", fit);
 }
 
 }  // namespace atlas

@@ -27,13 +27,16 @@ struct TimedFit {
   double time_s = 0.0;
 };
 struct FitMethod {
-  Look look;
+  std::string name;
   std::function<TimedFit(const Factors&, std::uint64_t seed)> run;
 };
 
 std::vector<FitMethod> fit_methods();
 /// slipfit's fit of Coulomb friction without an average of the sensor, where the two are not asked for.
 FitMethod fit_without_terms();
+
+/// Whether the method calls the parameter known and is off by more than 4 standard errors and 2 %.
+bool is_confidently_wrong(const FitAnswer& answer, std::size_t parameter, double truth);
 
 std::array<double, kFitParameters> truth_of(const Scene& scene);
 

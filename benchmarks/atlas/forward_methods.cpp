@@ -2,14 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <map>
-
 #include "rivals.hpp"
 
 namespace atlas {
 namespace {
 
-using chart::Colour, chart::Shape, chart::Stroke;
 using Rival = Answer (*)(const ForwardScene&, const WaveTimes&, double);
 
 void add_settings(std::vector<ForwardMethod>& methods, const std::string& family, Rival rival,
@@ -35,21 +32,6 @@ std::vector<ForwardMethod> forward_methods() {
   add_settings(methods, "switch model (Leine)", run_switch_model, {1e-2, 1e-3, 1e-4, 1e-5, 1e-6});
   add_settings(methods, "tanh-smoothed", run_smoothed, {1e-2, 1e-3, 1e-4, 1e-5});
   return methods;
-}
-
-Look forward_look(const std::string& family) {
-  static const std::map<std::string, Look> looks{
-      {"sawtooth limit", {"sawtooth limit", Colour::Grey, Shape::Dot, Stroke::Solid}},
-      {"undamped closed form", {"undamped closed form", Colour::SkyBlue, Shape::Dot, Stroke::Solid}},
-      {"paper's approximation", {"paper's approximation", Colour::Purple, Shape::Dot, Stroke::Solid}},
-      {"exact damped", {"exact damped", Colour::Black, Shape::Dot, Stroke::Solid}},
-      {"velocity tier", {"velocity tier", Colour::Blue, Shape::Dot, Stroke::Solid}},
-      {"RK4, sign switching", {"RK4, sign switching", Colour::Orange, Shape::Ring, Stroke::Solid}},
-      {"time stepping (Moreau)", {"time stepping (Moreau)", Colour::Purple, Shape::Cross, Stroke::DashDotted}},
-      {"ODE 5(4), event location", {"ODE 5(4), event location", Colour::Green, Shape::Triangle, Stroke::Solid}},
-      {"switch model (Leine)", {"switch model (Leine)", Colour::SkyBlue, Shape::Triangle, Stroke::Dashed}},
-      {"tanh-smoothed", {"tanh-smoothed", Colour::Vermillion, Shape::Ring, Stroke::Dotted}}};
-  return looks.at(family);
 }
 
 }  // namespace atlas

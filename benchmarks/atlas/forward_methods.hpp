@@ -54,7 +54,6 @@ struct ForwardMethod {
 
 /// Rivals and slipfit's own tiers.
 std::vector<ForwardMethod> forward_methods();
-Look forward_look(const std::string& family);
 
 /// Runge-Kutta-Fehlberg 7(8) in long double at short steps, events by bisection of the step: shares nothing with the
 /// closed forms. `samples` over the period that it finds.

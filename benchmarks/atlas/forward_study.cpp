@@ -6,16 +6,13 @@
 #include <map>
 
 #include "forward_methods.hpp"
-#include "slipfit/model/motion.hpp"
 
 namespace atlas {
 namespace {
 
-using chart::Panel, chart::Point, chart::Scale;
-
 constexpr std::size_t kSamples = 200;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-constexpr double kRoundOff = 1e-16;  // no error at all stands here: a logarithmic axis has no 0
+constexpr double kRoundOff = 1e-16;  // the least error that is written: a logarithmic axis has no 0
 
 struct Row {
   ForwardScene scene;
@@ -96,26 +93,6 @@ std::vector<Summary> summarise(const std::vector<Row>& rows, const std::vector<F
   return summaries;
 }
 
-Panel pareto_panel(const std::vector<Summary>& summaries, double Summary::*error, const std::string& label) {
-  Panel panel;
-  panel.height_px = 430.0;
-  panel.x = {"CPU time for one cycle with 200 samples of its waveform  [µs]", 0.1, 1e6, Scale::Logarithmic};
-  panel.y = {label, 1e-17, 10.0, Scale::Logarithmic};
-  std::map<std::string, std::vector<Point>> families;
-  std::vector<std::string> order;
-  std::vector<Point> all;
-  for (const Summary& summary : summaries) {
-    if (!std::isfinite(summary.*error)) continue;
-    const std::string& family = summary.method->family;
-    if (families[family].empty()) order.push_back(family);
-    families[family].push_back({summary.time_us, summary.*error});
-    all.push_back(families[family].back());
-  }
-  panel.lines.push_back(draw_front(all, 1e6));
-  for (const std::string& family : order) add_series(panel, forward_look(family), families[family]);
-  return panel;
-}
-
 std::string summary_csv(const std::vector<std::pair<std::string, std::vector<Summary>>>& groups) {
   std::string csv =
       "friction,method,setting,scenes,wrong_or_gave_up,median_cpu_us,median_period_error,largest_period_error,median_"
@@ -131,32 +108,26 @@ std::string summary_csv(const std::vector<std::pair<std::string, std::vector<Sum
 }
 
 /// Error of the period against lambda at zeta 0.05, one setting a family.
-Panel lambda_panel(Effort effort) {
-  Panel panel;
-  panel.height_px = 430.0;
-  panel.x = {"stick-slip parameter λ = ωₙ (Fₛ − Fₖ) / (k V)  [-]", 0.3, 2e5, Scale::Logarithmic};
-  panel.y = {"relative error of the period  [-]", 1e-17, 10.0, Scale::Logarithmic};
+std::string lambda_csv(Effort effort) {
   const std::map<std::string, std::string> settings{{"RK4, sign switching", "0.01"},
                                                     {"time stepping (Moreau)", "0.01"},
                                                     {"ODE 5(4), event location", "1e-07"},
                                                     {"switch model (Leine)", "0.0001"},
                                                     {"tanh-smoothed", "0.001"}};
+  std::string csv = "method,setting,lambda,period_error\n";
   for (const ForwardMethod& method : forward_methods()) {
     const auto setting = settings.find(method.family);
     if (!method.setting.empty() && (setting == settings.end() || setting->second != method.setting)) continue;
-    std::vector<Point> points;
     for (const double lambda : log_spaced(0.3, 300.0, effort == Effort::Full ? 19 : 6)) {
       const ForwardScene scene{lambda, 0.05, 0.0, 0.0};
       const Reference reference = solve_reference(scene, kSamples);
       const Answer answer = method.run(scene, reference.times);
       if (answer.outcome != Outcome::Cycle || reference.answer.outcome != Outcome::Cycle) continue;
-      points.push_back({lambda, std::max(kRoundOff, std::abs(answer.period / reference.answer.period - 1.0))});
+      const double error = std::max(kRoundOff, std::abs(answer.period / reference.answer.period - 1.0));
+      csv += fmt::format("\"{}\",{},{:.6g},{:.6g}\n", method.family, method.setting, lambda, error);
     }
-    Look look = forward_look(method.family);
-    if (!method.setting.empty()) look.name += ", " + method.setting;
-    add_series(panel, look, points);
   }
-  return panel;
+  return csv;
 }
 
 }  // namespace
@@ -170,26 +141,8 @@ std::vector<File> study_forward(Effort effort) {
   }
   const auto coulomb = summarise(rows, methods, [](const ForwardScene& s) { return s.rate == 0.0; });
   const auto speed = summarise(rows, methods, [](const ForwardScene& s) { return s.rate != 0.0; });
-  const std::vector<std::string> remarks{
-      "Medians over a grid of λ and ζ; several markers of one kind: its steps, tolerances or widths.",
-      "The reference is Runge-Kutta-Fehlberg 7(8) in long double."};
-  const chart::Chart constant{
-      "Forward methods, constant friction (αV = 0)",
-      remarks,
-      {pareto_panel(coulomb, &Summary::period_error, "relative error of the period  [-]"),
-       pareto_panel(coulomb, &Summary::wave_error, "rms error of the waveform / its rms  [-]")}};
-  const chart::Chart varying{"Forward methods, friction that depends on the speed",
-                             remarks,
-                             {pareto_panel(speed, &Summary::period_error, "relative error of the period  [-]"),
-                              pareto_panel(speed, &Summary::wave_error, "rms error of the waveform / its rms  [-]")}};
-  const chart::Chart over_lambda{
-      "Forward methods over λ, constant friction, ζ = 0.05",
-      {fmt::format("One setting a family. Left of λ = {:.2f} there is no stick-slip.", slipfit::critical_lambda(0.05))},
-      {lambda_panel(effort)}};
   return {{"forward.csv", summary_csv({{"constant", coulomb}, {"of_speed", speed}})},
-          {"forward_constant.svg", to_svg(constant)},
-          {"forward_speed.svg", to_svg(varying)},
-          {"forward_lambda.svg", to_svg(over_lambda)}};
+          {"forward_lambda.csv", lambda_csv(effort)}};
 }
 
 }  // namespace atlas

@@ -131,15 +131,14 @@ Estimate quoted_by_fit(const Recording& recording) {
 }  // namespace
 
 std::vector<FrequencyMethod> frequency_methods() {
-  using chart::Colour, chart::Shape, chart::Stroke;
-  return {{{"FFT peak", Colour::Grey, Shape::Cross, Stroke::Solid}, spectral_peak},
-          {{"FFT peak, interpolated", Colour::SkyBlue, Shape::Ring, Stroke::Dashed}, interpolated_peak},
-          {{"FFT peak, 16 x zero-padded", Colour::Purple, Shape::Triangle, Stroke::Dotted}, zero_padded_peak},
-          {{"autocorrelation peak", Colour::Orange, Shape::Ring, Stroke::Solid}, autocorrelation_peak},
-          {{"slip counting (slipfit)", Colour::Green, Shape::Triangle, Stroke::Solid}, counted_slips},
-          {{"harmonic least squares (slipfit)", Colour::Blue, Shape::Dot, Stroke::DashDotted}, harmonic_comb},
-          {{"what slipfit analyze quotes", Colour::Vermillion, Shape::Ring, Stroke::Solid}, quoted_by_analyze},
-          {{"what slipfit fit quotes", Colour::Black, Shape::Dot, Stroke::Solid}, quoted_by_fit}};
+  return {{"FFT peak", spectral_peak},
+          {"FFT peak, interpolated", interpolated_peak},
+          {"FFT peak, 16 x zero-padded", zero_padded_peak},
+          {"autocorrelation peak", autocorrelation_peak},
+          {"slip counting (slipfit)", counted_slips},
+          {"harmonic least squares (slipfit)", harmonic_comb},
+          {"what slipfit analyze quotes", quoted_by_analyze},
+          {"what slipfit fit quotes", quoted_by_fit}};
 }
 
 }  // namespace atlas

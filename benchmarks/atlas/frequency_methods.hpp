@@ -13,7 +13,7 @@ namespace atlas {
 /// A way to find the repetition frequency of a recording, Hz. No value: it says that it found none. Rivals give no
 /// interval.
 struct FrequencyMethod {
-  Look look;
+  std::string name;
   std::function<slipfit::Estimate(const slipfit::Recording&)> find;
 };
 

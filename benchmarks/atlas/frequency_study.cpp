@@ -10,27 +10,16 @@
 namespace atlas {
 namespace {
 
-using chart::Panel, chart::Point, chart::Scale;
-
 constexpr double kGross = 0.05;  // relative error beyond which it is another frequency
-constexpr double kLeast = 1e-7;  // axes of errors begin here
+constexpr double kLeast = 1e-7;  // the least error that is written
 
-/// One factor varied, the others as usual.
-struct Sweep {
-  std::string name;
-  std::string label;
-  double Factors::*factor;
-  std::vector<double> values;
-};
-
-std::vector<Sweep> sweeps_of(Effort effort) {
+std::vector<FactorSweep> sweeps_of(Effort effort) {
   const std::size_t count = effort == Effort::Full ? 11 : 5;
-  return {
-      {"noise", "noise, rms over the friction drop  [-]", &Factors::noise, log_spaced(1e-3, 3.0, count)},
-      {"jitter", "scatter of the static friction over the drop  [-]", &Factors::jitter, log_spaced(1e-3, 0.3, count)},
-      {"drift", "drift over the recording, in drops  [-]", &Factors::drift, log_spaced(0.1, 100.0, count)},
-      {"hum", "amplitude of the 50 Hz hum over the drop  [-]", &Factors::hum, log_spaced(0.01, 3.0, count)},
-      {"cycles", "cycles in the recording  [-]", &Factors::cycles, log_spaced(4.0, 400.0, count)}};
+  return {{"noise", &Factors::noise, log_spaced(1e-3, 3.0, count)},
+          {"jitter", &Factors::jitter, log_spaced(1e-3, 0.3, count)},
+          {"drift", &Factors::drift, log_spaced(0.1, 100.0, count)},
+          {"hum", &Factors::hum, log_spaced(0.01, 3.0, count)},
+          {"cycles", &Factors::cycles, log_spaced(4.0, 400.0, count)}};
 }
 
 /// Cramer-Rao bound of the relative error of the frequency for a waveform of known shape in white noise, and what
@@ -80,88 +69,36 @@ Cell measure(const FrequencyMethod& method, const Factors& factors, std::size_t 
   return result;
 }
 
-Panel error_panel(const Sweep& sweep) {
-  Panel panel;
-  panel.height_px = 360.0;
-  panel.x = {sweep.label, sweep.values.front(), sweep.values.back(), Scale::Logarithmic};
-  panel.y = {"relative error of the frequency  [-]", kLeast, 10.0, Scale::Logarithmic};
-  return panel;
-}
-
-struct Measured {
-  std::string csv;
-  std::vector<Panel> panels;
-};
-
-Measured run_sweeps(Effort effort, std::size_t trials) {
-  Measured all;
-  for (const Sweep& sweep : sweeps_of(effort)) {
-    Panel panel = error_panel(sweep);
-    chart::Line bound{"Cramér-Rao bound and scatter of the periods", chart::Colour::Black, chart::Stroke::Dashed, {}};
-    std::vector<std::vector<Point>> points(frequency_methods().size());
-    for (const double value : sweep.values) {
-      Factors factors;
-      factors.*sweep.factor = value;
-      const double least = bound_of(make_scene(factors, 1000), factors);
-      bound.points.push_back({value, least});
-      std::size_t column = 0;
-      for (const FrequencyMethod& method : frequency_methods()) {
-        const Cell result = measure(method, factors, trials);
-        points[column++].push_back({value, result.error});
-        all.csv +=
-            fmt::format("{},{:.4g},\"{}\",{},{},{:.3g},{:.3g},{:.4g},{:.4g}\n", sweep.name, value, method.look.name,
-                        trials, cell(result.error), result.none, result.gross, least, result.time_us);
-      }
-    }
-    panel.lines.push_back(bound);
-    for (std::size_t i = 0; i < points.size(); ++i) add_series(panel, frequency_methods()[i].look, points[i]);
-    if (!all.panels.empty()) strip_legend(panel);
-    all.panels.push_back(std::move(panel));
-  }
-  return all;
-}
-
-Panel time_panel(Effort effort, std::size_t trials) {
-  Panel panel;
-  panel.height_px = 400.0;
-  panel.x = {"CPU time for one recording of 40 cycles, about 4000 samples  [µs]", 20.0, 1e6, Scale::Logarithmic};
-  panel.y = {"relative error of the frequency  [-]", 1e-7, 1.0, Scale::Logarithmic};
-  const std::vector<std::pair<double, std::string>> noises{{0.002, "0.002"}, {0.02, "0.02"}, {0.2, "0.2"}};
-  std::vector<Point> usual;
-  for (const FrequencyMethod& method : frequency_methods()) {
-    std::vector<Point> points;
-    for (const auto& [noise, text] : noises) {
-      Factors factors;
-      factors.noise = noise;
-      const Cell result = measure(method, factors, effort == Effort::Full ? 2 * trials : trials);
-      points.push_back({result.time_us, result.error});
-      if (noise == 0.02) usual.push_back(points.back());
-    }
-    add_series(panel, method.look, points);
-  }
-  panel.lines.push_back(draw_front(usual, 1e6));
-  return panel;
+std::string row(const std::string& factor, double value, const FrequencyMethod& method, std::size_t trials,
+                const Cell& result, double bound) {
+  return fmt::format("{},{:.4g},\"{}\",{},{},{:.3g},{:.3g},{:.4g},{:.4g}\n", factor, value, method.name, trials,
+                     cell(result.error), result.none, result.gross, bound, result.time_us);
 }
 
 }  // namespace
 
 std::vector<File> study_frequency(Effort effort) {
   const std::size_t trials = effort == Effort::Full ? 40 : 9;
-  const Measured all = run_sweeps(effort, trials);
-  const chart::Chart time{
-      "Frequency: error against time",
-      {"Three markers a method: noise of 0.2 (top), 0.02 and 0.002 of the friction drop; 40 cycles.",
-       "The front is that of the middle noise."},
-      {time_panel(effort, trials)}};
-  const chart::Chart factors{
-      "Frequency: error against what spoils a recording",
-      {"Usual: 40 cycles, 20 samples per slip, noise 0.02 of the friction drop, nothing else.",
-       "Robust size (68 %) of the errors; no mark: it finds none in more than half of the trials."},
-      all.panels};
-  return {{"frequency.csv",
-           "factor,value,method,trials,relative_error,share_none,share_gross,bound,median_cpu_us\n" + all.csv},
-          {"frequency_time.svg", to_svg(time)},
-          {"frequency_factors.svg", to_svg(factors)}};
+  const std::size_t timed_trials = effort == Effort::Full ? 2 * trials : trials;
+  std::string csv = "factor,value,method,trials,relative_error,share_none,share_gross,bound,median_cpu_us\n";
+  for (const FactorSweep& sweep : sweeps_of(effort)) {
+    for (const double value : sweep.values) {
+      const Factors factors = sweep.at(value);
+      const double bound = bound_of(make_scene(factors, 1000), factors);
+      for (const FrequencyMethod& method : frequency_methods()) {
+        csv += row(sweep.name, value, method, trials, measure(method, factors, trials), bound);
+      }
+    }
+  }
+  for (const FrequencyMethod& method : frequency_methods()) {  // error against time
+    for (const double noise : {0.002, 0.02, 0.2}) {
+      Factors factors;
+      factors.noise = noise;
+      const double bound = bound_of(make_scene(factors, 1000), factors);
+      csv += row("time", noise, method, timed_trials, measure(method, factors, timed_trials), bound);
+    }
+  }
+  return {{"frequency.csv", csv}};
 }
 
 }  // namespace atlas

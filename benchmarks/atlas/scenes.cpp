@@ -1,10 +1,12 @@
 #include "scenes.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <random>
+#include <utility>
 #include <vector>
 
-#include "bent_trace.hpp"
+#include "simulator.hpp"
 #include "slipfit/model/simulation.hpp"
 
 namespace atlas {
@@ -52,18 +54,73 @@ Trace simulated(const Factors& factors, const Contact& contact, const Sampling& 
   return {std::move(trace.time_s), std::move(trace.force_N)};
 }
 
+/// Means of a force that is a straight line between even steps from time 0 on.
+class Averaged {
+ public:
+  Averaged(std::vector<double> force_N, double step_s) : force_N_(std::move(force_N)), step_s_(step_s) {
+    integral_Ns_.reserve(force_N_.size());
+    integral_Ns_.push_back(0.0);
+    for (std::size_t i = 1; i < force_N_.size(); ++i) {
+      integral_Ns_.push_back(integral_Ns_.back() + 0.5 * step_s_ * (force_N_[i - 1] + force_N_[i]));
+    }
+  }
+  /// Over `width_s` around a time, as far as there is a force; the force itself where the width is 0.
+  [[nodiscard]] double mean_N(double time_s, double width_s) const {
+    const double from_s = std::max(0.0, time_s - 0.5 * width_s);
+    const double to_s = time_s + 0.5 * width_s;
+    return width_s > 0.0 ? (integral_at(to_s) - integral_at(from_s)) / width_s : force_at(time_s);
+  }
+
+ private:
+  [[nodiscard]] std::size_t before(double time_s) const {
+    return std::min(static_cast<std::size_t>(time_s / step_s_), force_N_.size() - 2);
+  }
+  [[nodiscard]] double force_at(double time_s) const {
+    const std::size_t i = before(time_s);
+    return force_N_[i] + (time_s / step_s_ - static_cast<double>(i)) * (force_N_[i + 1] - force_N_[i]);
+  }
+  [[nodiscard]] double integral_at(double time_s) const {
+    const std::size_t i = before(time_s);
+    const double since_s = time_s - static_cast<double>(i) * step_s_;
+    return integral_Ns_[i] + 0.5 * since_s * (force_N_[i] + force_at(time_s));
+  }
+
+  std::vector<double> force_N_, integral_Ns_;
+  double step_s_;
+};
+
+/// Of the independent simulator: an average of the sensor, and friction that falls over a slip distance. Begins at a
+/// stick without force, as `simulated` does.
 Trace bent(const Factors& factors, const Contact& contact, const Sampling& sampling) {
-  const Bends bends{factors.average / contact.slider.natural_frequency_rad_per_s(),
-                    factors.weakening * kDifference_N / kStiffness_N_per_m};
+  const double omega = contact.slider.natural_frequency_rad_per_s();
+  const double average_s = factors.average / omega;
   const auto count = static_cast<std::size_t>(sampling.duration_s * sampling.rate_Hz);
-  Trace trace;
-  trace.force_N = BentTrace(contact.slider, contact.friction, contact.speed_m_per_s, bends)
-                      .force_N(0.0, 1.0 / sampling.rate_Hz, count);
+  const double sample_s = 1.0 / sampling.rate_Hz;
+  const auto fine =
+      static_cast<std::size_t>(std::ceil(sample_s * omega / 0.01));  // steps of the simulation in a sample
+  const auto steps = count * fine + static_cast<std::size_t>(std::ceil(0.5 * average_s / sample_s)) * fine + 1;
+  independent::Model model{};
+  model.stiffness = kStiffness_N_per_m;
+  model.omega = omega;
+  model.damping_ratio = contact.slider.damping_ratio();
+  model.weakening_length = factors.weakening * kDifference_N / kStiffness_N_per_m;
+  const std::vector<double> speed(steps, contact.speed_m_per_s), static_N(steps, contact.friction.static_N());
+  const std::vector<double> kinetic_N(steps, contact.friction.kinetic_N());
+  std::vector<double> force_N(steps), behind_m(steps);
+  std::vector<independent::Slip> slips(5000);
+  const double one = 1.0;
+  const double step_s = sample_s / static_cast<double>(fine);
+  const independent::Course course{
+      speed.data(), static_N.data(), kinetic_N.data(), &one, static_cast<long>(steps), 1, step_s, 2};
+  independent::simulate(&model, &course, 0.0, force_N.data(), behind_m.data(), slips.data(),
+                        static_cast<long>(slips.size()));
+  const Averaged seen(std::move(force_N), step_s);
   std::mt19937_64 random(sampling.noise_seed);
   std::normal_distribution<double> noise_N(0.0, factors.noise * kDifference_N);
+  Trace trace;
   for (std::size_t i = 0; i < count; ++i) {
-    trace.time_s.push_back(static_cast<double>(i) / sampling.rate_Hz);
-    trace.force_N[i] += noise_N(random);
+    trace.time_s.push_back(static_cast<double>(i) * sample_s);
+    trace.force_N.push_back(seen.mean_N(trace.time_s.back(), average_s) + noise_N(random));
   }
   return trace;
 }

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
+#include <vector>
 
 #include "slipfit/core/recording.hpp"
 #include "slipfit/model/motion.hpp"
@@ -18,6 +20,19 @@ struct Factors {
   double average = 0.0;    ///< of the sensor: w_n T_b
   double weakening = 0.0;  ///< slip distance: k D_c over the friction drop. Neither scatter, drift nor hum with the two
   double speedup = 1.0;    ///< driving speed over the usual one: lambda is 10 / speedup
+};
+
+/// One factor varied, the others as usual.
+struct FactorSweep {
+  std::string name;
+  double Factors::*factor;
+  std::vector<double> values;
+
+  [[nodiscard]] Factors at(double value) const {
+    Factors factors;
+    factors.*factor = value;
+    return factors;
+  }
 };
 
 struct Scene {

@@ -1,19 +1,15 @@
-// Simulates recordings of known truth, fits them, and counts how often the truth lies in the intervals.
-// docs/validation.md quotes what it prints.
+// Simulates recordings and sweeps of known truth, fits them, and prints truth and estimate of each parameter, for
+// coverage/summarise.py.
 
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <atomic>
-#include <fstream>
 #include <string>
-#include <thread>
-#include <utility>
 #include <vector>
 
 #include "families.hpp"
-#include "tally.hpp"
+#include "in_parallel.hpp"
+#include "rows.hpp"
 
 namespace {
 
@@ -22,23 +18,16 @@ struct Arguments {
   std::uint64_t count = 100;
   std::uint64_t seed = 1;
   unsigned jobs = 2;
-  std::string out;
 };
 
-/// Rows in the order of families and recordings, whatever the number of threads.
 std::vector<coverage::Row> run(const Arguments& arguments) {
-  const std::uint64_t total = arguments.count * arguments.families.size();
-  std::vector<std::vector<coverage::Row>> results(total);
-  std::atomic<std::uint64_t> next{0};
-  const auto work = [&] {
-    for (std::uint64_t i = next++; i < total; i = next++) {
-      const std::string& family = arguments.families[i / arguments.count];
-      results[i] = coverage::fit_scene(coverage::make_scene(family, i % arguments.count, arguments.seed));
-    }
-  };
-  std::vector<std::thread> threads;
-  for (unsigned i = 0; i < std::max(1U, arguments.jobs); ++i) threads.emplace_back(work);
-  for (std::thread& thread : threads) thread.join();
+  const std::size_t total = arguments.count * arguments.families.size();
+  const auto results = in_parallel(total, arguments.jobs, [&](std::size_t i) {
+    const std::string& family = arguments.families[i / arguments.count];
+    const std::uint64_t index = i % arguments.count;
+    return family == "sweeps" ? coverage::fit_joint(coverage::make_sweep(arguments.seed + index))
+                              : coverage::fit_scene(coverage::make_scene(family, index, arguments.seed));
+  });
   std::vector<coverage::Row> rows;
   for (const auto& result : results) rows.insert(rows.end(), result.begin(), result.end());
   return rows;
@@ -48,14 +37,13 @@ std::vector<coverage::Row> run(const Arguments& arguments) {
 
 int main(int argc, char** argv) {
   Arguments arguments;
-  CLI::App program("Coverage of the 95 % intervals over simulated recordings");
-  program.add_option("--families", arguments.families, "Comma-separated; default: all")->delimiter(',');
-  program.add_option("--count", arguments.count, "Recordings of each family")->capture_default_str();
+  CLI::App program("Coverage of the 95 % intervals over simulated recordings and sweeps");
+  program
+      .add_option("--families", arguments.families, "Comma-separated; default: all of recordings. Speed sweeps: sweeps")
+      ->delimiter(',');
+  program.add_option("--count", arguments.count, "Recordings or sweeps of each family")->capture_default_str();
   program.add_option("--seed", arguments.seed)->capture_default_str();
   program.add_option("--jobs", arguments.jobs, "Threads")->capture_default_str();
-  program.add_option("--out", arguments.out, "Write one row a recording and parameter (CSV)");
   CLI11_PARSE(program, argc, argv);
-  const std::vector<coverage::Row> rows = run(arguments);
-  if (!arguments.out.empty()) std::ofstream(arguments.out) << coverage::to_csv(rows);
-  fmt::print("{}", coverage::summarise(rows));
+  fmt::print("{}", coverage::to_csv(run(arguments)));
 }

@@ -6,7 +6,7 @@ from scipy.interpolate import CubicSpline
 from scipy.signal import butter, lfilter, lfilter_zi
 
 from families_outside import SHARED
-from scenes import draw_rig, np, scene
+from scenes import draw_rig, families, np, scene
 
 K_AND_MASS = ("stiffness_N_per_m", "mass_kg")
 
@@ -93,19 +93,6 @@ def _filtered(rng, order):
     return scene(rig, motion, lfilter(b, a, force, zi=lfilter_zi(b, a) * force[0])[0], noise=False)
 
 
-def filter_second(rng):
-    """A Butterworth filter of second order at 3 to 15 times the natural frequency."""
-    return _filtered(rng, 2)
-
-
-def filter_third(rng):
-    return _filtered(rng, 3)
-
-
-def filter_fourth(rng):
-    return _filtered(rng, 4)
-
-
 def filter_stated(rng):
     """An analogue filter of second to fourth order at 1 to 15 times the natural frequency, whose data sheet is at hand."""
     order, finer = int(rng.integers(2, 5)), 16
@@ -121,5 +108,9 @@ def filter_stated(rng):
     return result
 
 
-FAMILIES = [relaxing_solid, relaxing_prony, relaxing_rubber, flash_temperature, stribeck_minimum, fixed_depth, fixed_depth_measured,
-            filter_second, filter_third, filter_fourth, filter_stated]
+FAMILIES = families(
+    relaxing_solid, relaxing_prony, relaxing_rubber, flash_temperature, stribeck_minimum, fixed_depth, fixed_depth_measured, filter_stated,
+    filter_second=lambda rng: _filtered(rng, 2),  # a Butterworth filter of second order at 3 to 15 times the natural frequency
+    filter_third=lambda rng: _filtered(rng, 3),
+    filter_fourth=lambda rng: _filtered(rng, 4),
+)

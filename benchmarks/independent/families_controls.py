@@ -1,33 +1,13 @@
 """Negative controls: steady sliding, waves, a ring-down."""
 from families_inside import NONE
 from families_outside import extended
-from scenes import control, draw_rig, lines, np, red
+from scenes import control, draw_rig, families, lines, np, red
 
 
 def _steady(rng, noise_of):
     rig = draw_rig(rng)
     n = int(rng.integers(4000, 12000))
     return control(rig, "steady", rig.kinetic + rig.drop * noise_of(n, np.arange(n) * rig.step, rig))
-
-
-def steady_white(rng):
-    return _steady(rng, lambda n, t, r: 0.0 * t)
-
-
-def steady_red(rng):
-    return _steady(rng, lambda n, t, r: 0.3 * red(rng, n, 10 ** rng.uniform(0.5, 3)))
-
-
-def steady_walk(rng):
-    return _steady(rng, lambda n, t, r: np.cumsum(rng.standard_normal(n)) / np.sqrt(n))
-
-
-def steady_pickup(rng):
-    return _steady(rng, lambda n, t, r: lines(rng, t, 10 ** rng.uniform(-2.5, -0.5) / r.step, [0.3, 0.1 * rng.integers(0, 2)]))
-
-
-def steady_ripple(rng):
-    return _steady(rng, lambda n, t, r: 0.05 * red(rng, n, 30) + lines(rng, t, 0.01 / r.step, [0.05, 0.1]) + lines(rng, t, 0.25 / r.step, [0.1]))
 
 
 def steady_run(rng):
@@ -49,21 +29,9 @@ def _wave(rng, shape):
     return control(rig, "wave", rig.kinetic + rig.drop * shape(2 * np.pi * frequency * t + rng.uniform(0, 6)), frequency=frequency)
 
 
-def sine(rng):
-    return _wave(rng, np.sin)
-
-
 def sine_harmonics(rng):
     a, b, p, q = rng.uniform(0, 0.4), rng.uniform(0, 0.2), rng.uniform(0, 6), rng.uniform(0, 6)
     return _wave(rng, lambda w: np.sin(w) + a * np.sin(2 * w + p) + b * np.sin(3 * w + q))
-
-
-def square(rng):
-    return _wave(rng, lambda w: np.sign(np.sin(w)))
-
-
-def triangle(rng):
-    return _wave(rng, lambda w: 2 / np.pi * np.arcsin(np.sin(w)))
 
 
 def ringdown(rng):
@@ -114,5 +82,14 @@ def chirp(rng):
     return result
 
 
-FAMILIES = [texture_trace, texture_bumps, chirp, steady_white, steady_red, steady_walk, steady_pickup, steady_ripple, steady_run, sine, sine_harmonics, square, triangle,
-            ringdown]
+FAMILIES = families(
+    texture_trace, texture_bumps, chirp, steady_run, sine_harmonics, ringdown,
+    steady_white=lambda rng: _steady(rng, lambda n, t, r: 0.0 * t),
+    steady_red=lambda rng: _steady(rng, lambda n, t, r: 0.3 * red(rng, n, 10 ** rng.uniform(0.5, 3))),
+    steady_walk=lambda rng: _steady(rng, lambda n, t, r: np.cumsum(rng.standard_normal(n)) / np.sqrt(n)),
+    steady_pickup=lambda rng: _steady(rng, lambda n, t, r: lines(rng, t, 10 ** rng.uniform(-2.5, -0.5) / r.step, [0.3, 0.1 * rng.integers(0, 2)])),
+    steady_ripple=lambda rng: _steady(rng, lambda n, t, r: 0.05 * red(rng, n, 30) + lines(rng, t, 0.01 / r.step, [0.05, 0.1]) + lines(rng, t, 0.25 / r.step, [0.1])),
+    sine=lambda rng: _wave(rng, np.sin),
+    square=lambda rng: _wave(rng, lambda w: np.sign(np.sin(w))),
+    triangle=lambda rng: _wave(rng, lambda w: 2 / np.pi * np.arcsin(np.sin(w))),
+)

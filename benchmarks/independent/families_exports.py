@@ -1,7 +1,7 @@
 """Families of testers and their exports: clocks and numbers that software made coarser or finer, sensors that drop out, noise that is
 not white, and slips in other proportions than those of the other families."""
-from families_inside import K_ONLY, averaged
-from scenes import Scene, draw_rig, np, red, scene, simulate
+from families_inside import K_ONLY, undisturbed, averaged
+from scenes import Scene, draw_rig, families, np, red, scene, simulate
 
 EFFECTS = ("relaxes", "weakens", "ages", "stribeck", "reloads", "creeps", "heats", "wave", "trend", "scatter", "averaged", "line", "smooth")
 
@@ -82,30 +82,6 @@ def _that_sticks(rng, **proportions):
             return scene(rig, motion)
 
 
-def short_sticks(rng):
-    """Sticks of a fifth to twice the slip."""
-    return _that_sticks(rng, ratio=(0.2, 2), zeta=(0.01, 0.1))
-
-
-def long_sticks(rng):
-    rig = draw_rig(rng, ratio=(50, 400), slips=(8, 15), per_slip=(5, 15))
-    return scene(rig, rig.run())
-
-
-def damped(rng):
-    return _that_sticks(rng, zeta=(0.3, 0.8))
-
-
-def six_slips(rng):
-    rig = draw_rig(rng, slips=(5, 8))
-    return scene(rig, rig.run())
-
-
-def many_slips(rng):
-    rig = draw_rig(rng, slips=(400, 900), per_slip=(5, 15), ratio=(3, 8))
-    return scene(rig, rig.run())
-
-
 def mixture(rng):
     """Each of what the other families have with a chance of a third, in moderation."""
     while True:
@@ -157,5 +133,11 @@ def _mixed(rng):
     return result
 
 
-FAMILIES = [interpolated, decimated, rounded_times, large_offset, drop_outs, pink_noise, smooth_noise, short_sticks, long_sticks, damped, six_slips,
-            many_slips, mixture]
+FAMILIES = families(
+    interpolated, decimated, rounded_times, large_offset, drop_outs, pink_noise, smooth_noise, mixture,
+    short_sticks=lambda rng: _that_sticks(rng, ratio=(0.2, 2), zeta=(0.01, 0.1)),  # sticks of a fifth to twice the slip
+    damped=lambda rng: _that_sticks(rng, zeta=(0.3, 0.8)),
+    long_sticks=lambda rng: undisturbed(rng, ratio=(50, 400), slips=(8, 15), per_slip=(5, 15)),
+    six_slips=lambda rng: undisturbed(rng, slips=(5, 8)),
+    many_slips=lambda rng: undisturbed(rng, slips=(400, 900), per_slip=(5, 15), ratio=(3, 8)),
+)

@@ -1,29 +1,14 @@
 """Families inside the model, with other instruments, and with irregular slips."""
 from scipy.signal import lfilter
 
-from scenes import Scene, counted, draw_rig, lines, np, red, scene, simulate
+from scenes import Scene, counted, draw_rig, families, lines, np, red, scene, simulate
 
 K_ONLY = ("stiffness_N_per_m",)
 NONE = ()
 
 
-def plain(rng):
-    rig = draw_rig(rng)
-    return scene(rig, rig.run())
-
-
-def few_samples(rng):
-    rig = draw_rig(rng, per_slip=(4, 7))
-    return scene(rig, rig.run())
-
-
-def many_samples(rng):
-    rig = draw_rig(rng, per_slip=(100, 200), slips=(8, 14))
-    return scene(rig, rig.run())
-
-
-def noisy(rng):
-    rig = draw_rig(rng, noise=(0.08, 0.15))
+def undisturbed(rng, **proportions):
+    rig = draw_rig(rng, **proportions)
     return scene(rig, rig.run())
 
 
@@ -43,18 +28,6 @@ def _scattered(rng, spread):
     motion = rig.run(factors=factors)
     result = scene(rig, motion, known=K_ONLY if spread > 0.5 else ("stiffness_N_per_m", "natural_frequency_rad_per_s", "damping_ratio"))
     return result
-
-
-def scatter10(rng):
-    return _scattered(rng, 0.1)
-
-
-def scatter30(rng):
-    return _scattered(rng, 0.3)
-
-
-def scatter80(rng):
-    return _scattered(rng, 0.8)
 
 
 def clustered(rng):
@@ -81,14 +54,6 @@ def _level(rng, level_of):
     level = rig.drop * level_of(time_s, seconds)
     motion = simulate(rig.model, rig.step, speed, static + level, kinetic + level, start_force=rig.start_force())
     return scene(rig, motion)
-
-
-def level_waves(rng):
-    return _level(rng, lambda t, T: rng.uniform(0.2, 0.8) * np.sin(2 * np.pi * rng.uniform(1, 5) * t / T + rng.uniform(0, 6)))
-
-
-def level_walk(rng):
-    return _level(rng, lambda t, T: rng.uniform(0.3, 1.0) * np.cumsum(rng.standard_normal(len(t))) / np.sqrt(len(t)))
 
 
 def averaged(force, kernel):
@@ -133,22 +98,6 @@ def _pickup(rng, frequency, swings):
     if frequency * 2.5 * rig.step > 1:  # the sampling must resolve the line
         frequency = 0.3 / rig.step
     return scene(rig, motion, motion.force + lines(rng, motion.time_s, frequency, rig.drop * np.array(swings)))
-
-
-def pickup_1000(rng):
-    return _pickup(rng, 1000.0, [rng.uniform(0.05, 0.3)])
-
-
-def pickup_100(rng):
-    return _pickup(rng, 100.0, [rng.uniform(0.05, 0.3), 0.05])
-
-
-def pickup_37(rng):
-    return _pickup(rng, 37.0, [rng.uniform(0.05, 0.3), 0.03])
-
-
-def pickup_10(rng):
-    return _pickup(rng, 10.0, [rng.uniform(0.05, 0.3), 0.1, 0.05])
 
 
 def mains_drifting(rng):
@@ -196,6 +145,19 @@ def quantised(rng):
     return result
 
 
-FAMILIES = [plain, few_samples, many_samples, noisy, noise_in_slips, scatter10, scatter30, scatter80, clustered, wear_in, level_waves,
-            level_walk, boxcar, first_order, sinc3, sensor_ring, pickup_1000, pickup_100, pickup_37, pickup_10, mains_drifting,
-            lost_chunks, held_values, quantised]
+FAMILIES = families(
+    noise_in_slips, clustered, wear_in, boxcar, first_order, sinc3, sensor_ring, mains_drifting, lost_chunks, held_values, quantised,
+    plain=lambda rng: undisturbed(rng),
+    few_samples=lambda rng: undisturbed(rng, per_slip=(4, 7)),
+    many_samples=lambda rng: undisturbed(rng, per_slip=(100, 200), slips=(8, 14)),
+    noisy=lambda rng: undisturbed(rng, noise=(0.08, 0.15)),
+    scatter10=lambda rng: _scattered(rng, 0.1),
+    scatter30=lambda rng: _scattered(rng, 0.3),
+    scatter80=lambda rng: _scattered(rng, 0.8),
+    level_waves=lambda rng: _level(rng, lambda t, T: rng.uniform(0.2, 0.8) * np.sin(2 * np.pi * rng.uniform(1, 5) * t / T + rng.uniform(0, 6))),
+    level_walk=lambda rng: _level(rng, lambda t, T: rng.uniform(0.3, 1.0) * np.cumsum(rng.standard_normal(len(t))) / np.sqrt(len(t))),
+    pickup_1000=lambda rng: _pickup(rng, 1000.0, [rng.uniform(0.05, 0.3)]),
+    pickup_100=lambda rng: _pickup(rng, 100.0, [rng.uniform(0.05, 0.3), 0.05]),
+    pickup_37=lambda rng: _pickup(rng, 37.0, [rng.uniform(0.05, 0.3), 0.03]),
+    pickup_10=lambda rng: _pickup(rng, 10.0, [rng.uniform(0.05, 0.3), 0.1, 0.05]),
+)

@@ -2,7 +2,7 @@
 import math
 
 from families_inside import K_ONLY, NONE
-from scenes import PARAMETERS, SLIP, Motion, draw_rig, lines, np, scene, simulate, simulate_lugre
+from scenes import PARAMETERS, SLIP, Motion, draw_rig, families, lines, np, scene, simulate, simulate_lugre
 
 SHARED = ("stiffness_N_per_m", "natural_frequency_rad_per_s")
 
@@ -76,14 +76,6 @@ def _strokes(rng, strokes):
     result.truth |= {"kind": "reciprocating", "frequency_Hz": float(1 / within.mean()), "spacing_m": float(rig.speed * within.mean()),
                      "any_stretch": True}
     return result
-
-
-def there_and_back(rng):
-    return _strokes(rng, 2)
-
-
-def reversals(rng):
-    return _strokes(rng, int(rng.integers(3, 7)))
 
 
 def short_strokes(rng):
@@ -181,10 +173,6 @@ def _friction(rng, known, **terms):
     return scene(rig, rig.run(), known=known)
 
 
-def creep(rng):
-    return _friction(rng, NONE, creep_force=lambda r: r.drop * rng.uniform(0.2, 0.8), creep_share=rng.uniform(0.3, 0.8))
-
-
 def reload(rng):
     return _friction(rng, PARAMETERS, reload_force=lambda r: 0.3 * r.drop * rng.uniform(0.3, 1), reload_length=lambda r: 0.3 * r.drop / r.model.stiffness)
 
@@ -243,10 +231,6 @@ def _falls(force, least):
         elif not falling and f < force[high] - least:
             falling, low = True, i
     return falls
-
-
-def precursors(rng):
-    return _friction(rng, K_ONLY, precursor_at=rng.uniform(0.5, 0.9), precursor_share=rng.uniform(0.05, 0.15))
 
 
 def aftershocks(rng):
@@ -322,5 +306,12 @@ def all_mild(rng):
     return scene(rig, motion, force, known=NONE)
 
 
-FAMILIES = [stage_run, soft_run_up, pause, there_and_back, reversals, short_strokes, speed_step, late_onset, dies_out, ripple, servo_dips, measured_ripple, measured_steady, creep, reload, stiffening, stribeck,
-              quadratic, ageing, weakening, lugre, precursors, aftershocks, texture, two_saws, clipped_saw, swings_with_jumps, clocked, clutch_like, all_mild]
+FAMILIES = families(
+    stage_run, soft_run_up, pause, short_strokes, speed_step, late_onset, dies_out, ripple, servo_dips, measured_ripple, measured_steady, reload,
+    stiffening, stribeck, quadratic, ageing, weakening, lugre, aftershocks, texture, two_saws, clipped_saw, swings_with_jumps, clocked, clutch_like,
+    all_mild,
+    there_and_back=lambda rng: _strokes(rng, 2),
+    reversals=lambda rng: _strokes(rng, int(rng.integers(3, 7))),
+    creep=lambda rng: _friction(rng, NONE, creep_force=lambda r: r.drop * rng.uniform(0.2, 0.8), creep_share=rng.uniform(0.3, 0.8)),
+    precursors=lambda rng: _friction(rng, K_ONLY, precursor_at=rng.uniform(0.5, 0.9), precursor_share=rng.uniform(0.05, 0.15)),
+)

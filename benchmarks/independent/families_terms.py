@@ -1,8 +1,8 @@
 """Families of the terms that measured recordings ask for, alone and together: an average of the instrument, friction that
-weakens over a slip distance, a rise after slips, a spring that relaxes. Drawn by make_terms.py."""
+weakens over a slip distance, a rise after slips, a spring that relaxes."""
 import math
 
-from scenes import PARAMETERS, Scene, draw_rig, np, truth_of
+from scenes import PARAMETERS, Scene, draw_rig, families, np, truth_of
 
 FINE = 8  # steps of the simulator in one of the recording
 
@@ -63,55 +63,17 @@ def _scene(rng, average=False, weakens=False, reloads=False, rings=None, relaxes
     return Scene(time_s - time_s[0], force + rig.white(len(force)), truth)
 
 
-def none(rng):
-    return _scene(rng)
-
-
-def average(rng):
-    return _scene(rng, average=True)
-
-
-def weakens(rng):
-    return _scene(rng, weakens=True)
-
-
-def reloads(rng):
-    return _scene(rng, reloads=True)
-
-
-def average_weakens(rng):
-    return _scene(rng, average=True, weakens=True)
-
-
-def average_reloads(rng):
-    return _scene(rng, average=True, reloads=True)
-
-
-def weakens_reloads(rng):
-    return _scene(rng, weakens=True, reloads=True)
-
-
-def average_weakens_reloads(rng):
-    return _scene(rng, average=True, weakens=True, reloads=True)
-
-
-def rings(rng):
-    return _scene(rng, rings=1.0)
-
-
-def average_rings(rng):
-    return _scene(rng, average=True, rings=1.0)
-
-
-def rings_otherwise(rng):
-    """Another mode than that of the slips rings after the release."""
-    return _scene(rng, rings=rng.uniform(1.15, 2.0))
-
-
-def relaxes(rng):
-    """A standard linear solid in place of the spring, beside the damper."""
-    return _scene(rng, relaxes=True)
-
-
-FAMILIES = [none, average, weakens, reloads, average_weakens, average_reloads, weakens_reloads, average_weakens_reloads,
-            rings, average_rings, rings_otherwise, relaxes]
+FAMILIES = families(
+    none=lambda rng: _scene(rng),
+    average=lambda rng: _scene(rng, average=True),
+    weakens=lambda rng: _scene(rng, weakens=True),
+    reloads=lambda rng: _scene(rng, reloads=True),
+    average_weakens=lambda rng: _scene(rng, average=True, weakens=True),
+    average_reloads=lambda rng: _scene(rng, average=True, reloads=True),
+    weakens_reloads=lambda rng: _scene(rng, weakens=True, reloads=True),
+    average_weakens_reloads=lambda rng: _scene(rng, average=True, weakens=True, reloads=True),
+    rings=lambda rng: _scene(rng, rings=1.0),
+    average_rings=lambda rng: _scene(rng, average=True, rings=1.0),
+    rings_otherwise=lambda rng: _scene(rng, rings=rng.uniform(1.15, 2.0)),  # another mode than that of the slips rings after the release
+    relaxes=lambda rng: _scene(rng, relaxes=True),  # a standard linear solid in place of the spring, and the damper
+)

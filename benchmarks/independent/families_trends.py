@@ -1,14 +1,6 @@
 """Families whose force level rises or falls over the recording: friction that changes (run-in, a rising load) or a sensor that drifts.
-Drawn by make_trends.py, which also writes the load where a column of it belongs to the family."""
-import dataclasses
-
-from scenes import Scene, draw_rig, np, scene, simulate
-
-
-@dataclasses.dataclass
-class Loaded(Scene):
-    """With the normal force at every sample."""
-    load: np.ndarray
+The load is written where a column of it belongs to the family."""
+from scenes import draw_rig, families, np, scene, simulate
 
 
 def _course(rng):
@@ -60,14 +52,16 @@ def load_column(rng):
     rig, motion, factor = _changing(rng, _rise(rng))
     load = rng.uniform(2, 50) * factor
     result = _known(rig, motion, motion.force, factor)
-    return Loaded(result.time_s, result.force, result.truth, load + 0.002 * load[0] * rng.standard_normal(len(load)))
+    result.normal_N = load + 0.002 * load[0] * rng.standard_normal(len(load))
+    return result
 
 
 def steady_load(rng):
     """A sensor that drifts under a load that a column shows to be steady."""
     result = drift(rng)
     load = rng.uniform(2, 50)
-    return Loaded(result.time_s, result.force, result.truth, load * (1 + 0.002 * rng.standard_normal(len(result.time_s))))
+    result.normal_N = load * (1 + 0.002 * rng.standard_normal(len(result.time_s)))
+    return result
 
 
 def drift(rng):
@@ -93,4 +87,7 @@ def level(rng):
     return _known(rig, motion, motion.force, np.ones(len(share)))
 
 
-FAMILIES = [run_in, rising_load, load_column, steady_load, drift, drift_settles, level]
+FAMILIES = families(
+    run_in, rising_load, load_column, steady_load, drift, drift_settles, level,
+
+)

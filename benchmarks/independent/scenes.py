@@ -1,4 +1,4 @@
-"""Families of simulated recordings with their truth, each drawn from a seed. Used by make_scenes.py.
+"""Families of simulated recordings with their truth, each drawn from a seed. Used by make.py.
 
 A scene is a rig (stiffness, natural frequency, ...) in proportions drawn at random; a family bends one thing in it.
 Rules of the library are set on seeds below 1000 and reported on seeds from 5000 up.
@@ -58,6 +58,11 @@ def draw_rig(rng, per_slip=(10, 50), slips=(15, 40), noise=(0.003, 0.03), ratio=
                slip_s / rng.uniform(*per_slip), int(rng.integers(*slips)), drop * np.exp(rng.uniform(*np.log(noise))))
 
 
+def families(*functions, **short):
+    """Families by name: functions of the random numbers that have a name, and short ones that get theirs here."""
+    return {**{function.__name__: function for function in functions}, **short}
+
+
 @dataclasses.dataclass
 class Scene:
     time_s: np.ndarray
@@ -65,6 +70,7 @@ class Scene:
     truth: dict
     displacement_m: np.ndarray = None
     normal_N: np.ndarray = None
+    speed_m_per_s: np.ndarray = None
 
 
 def counted(slips, share=0.25):
@@ -122,5 +128,5 @@ def lines(rng, time_s, frequency, swings):
     return sum(0.5 * s * np.cos(2 * np.pi * (i + 1) * frequency * time_s + rng.uniform(0, 6.3)) for i, s in enumerate(swings))
 
 
-__all__ = ["SLIP", "Model", "Motion", "Rig", "Scene", "control", "counted", "draw_rig", "lines", "red", "scene", "simulate",
+__all__ = ["SLIP", "Model", "Motion", "Rig", "Scene", "control", "counted", "draw_rig", "families", "lines", "red", "scene", "simulate",
            "simulate_lugre", "truth_of", "np"]

@@ -1,4 +1,4 @@
-"""The simulator of simulator.c for Python: compiled on first use, shares no code with slipfit. Needs numpy and gcc."""
+"""The simulator of simulator.cpp for Python: compiled on first use, shares no code with slipfit. Needs numpy and g++."""
 import ctypes
 import dataclasses
 import hashlib
@@ -8,7 +8,7 @@ import tempfile
 
 import numpy as np
 
-SOURCE = pathlib.Path(__file__).with_name("simulator.c")
+SOURCE = pathlib.Path(__file__).with_name("simulator.cpp")
 SLIP = np.dtype([("onset_s", float), ("end_s", float), ("onset_force", float), ("end_force", float)])
 DOUBLES = np.ctypeslib.ndpointer(float, flags="C_CONTIGUOUS")
 
@@ -27,11 +27,11 @@ class Course(ctypes.Structure):
 
 
 def load():
-    digest = hashlib.sha1(SOURCE.read_bytes()).hexdigest()[:12]
+    digest = hashlib.sha1(SOURCE.read_bytes() + SOURCE.with_suffix(".hpp").read_bytes()).hexdigest()[:12]
     library = pathlib.Path(tempfile.gettempdir()) / f"slipfit_simulator_{digest}.so"
     if not library.exists():
         made = library.with_suffix(f".{id(digest)}")
-        subprocess.run(["gcc", "-O2", "-shared", "-fPIC", "-o", made, SOURCE, "-lm"], check=True)
+        subprocess.run(["g++", "-O2", "-std=c++20", "-shared", "-fPIC", "-o", made, SOURCE], check=True)
         made.rename(library)
     return ctypes.CDLL(str(library))
 
@@ -77,14 +77,15 @@ def simulate_lugre(k, omega, zeta, fs, fk, stribeck_speed, sigma0, sigma1, speed
     return force
 
 
-def write_csv(path, time_s, force, displacement_m=None, normal_N=None):
-    if normal_N is not None:
-        np.savetxt(path, np.c_[time_s, force, normal_N], fmt=("%.9g", "%.7g", "%.7g"), delimiter=",",
-                   header="time_s,force_N,normal_force_N", comments="")
-        return
-    if displacement_m is not None:
-        np.savetxt(path, np.c_[time_s, force, 1e3 * displacement_m], fmt=("%.9g", "%.7g", "%.9g"), delimiter=",",
-                   header="time_s,force_N,displacement_mm", comments="")
+def write_csv(path, time_s, force, displacement_m=None, normal_N=None, speed_m_per_s=None):
+    """Time and force, and a column of each of the others that is given."""
+    others = [("displacement_mm", "%.9g", None if displacement_m is None else 1e3 * displacement_m), ("normal_force_N", "%.7g", normal_N),
+              ("speed [m/s]", "%.17g", speed_m_per_s)]
+    others = [column for column in others if column[2] is not None]
+    if others:
+        names, formats, values = zip(*others)
+        np.savetxt(path, np.c_[(time_s, force, *values)], fmt=("%.9g", "%.7g", *formats), delimiter=",",
+                   header=",".join(("time_s", "force_N", *names)), comments="")
         return
     run = LIBRARY.write_csv
     run.argtypes = [ctypes.c_char_p, DOUBLES, DOUBLES, ctypes.c_long]

@@ -6,7 +6,8 @@ import dataclasses
 
 import numpy as np
 
-from simulator import Model, simulate
+from scenes import families
+from simulator import Model, simulate, write_csv
 
 BEYOND = (2.0, 4.0)  # of the fastest recording
 
@@ -98,44 +99,11 @@ def velocity(rng, law, sign=1, share=(0.1, 0.4), decades=(-0.7, 0.5)):
     return bend
 
 
-def coulomb5(rng):
-    return draw(rng, 5, 8)
-
-
-def coulomb3(rng):
-    return draw(rng, 3, rng.uniform(4, 8))
-
-
-def exponential(rng):
-    return draw(rng, 5, 8, velocity(rng, 0))
-
-
 def exponential_strong(rng):
     """Kinetic friction that falls by half of F_s - F_k and more within the speeds of a slip; recordings with little noise."""
     sweep = draw(rng, 5, 8, velocity(rng, 0, share=(0.5, 1.0), decades=(-0.4, 0.2)))
     sweep.noise, sweep.per_slip = 0.3 * sweep.noise, 2.0 * sweep.per_slip
     return sweep
-
-
-def age_ln3(rng):
-    return draw(rng, 3, rng.uniform(4, 8), ageing(rng))
-
-
-def age_ln4(rng):
-    return draw(rng, 4, rng.uniform(4, 8), ageing(rng))
-
-
-def age_ln6(rng):
-    return draw(rng, 6, rng.uniform(8, 20), ageing(rng))
-
-
-def age_cutoff(rng):
-    return draw(rng, 4, rng.uniform(4, 8), ageing(rng, cut_off=(-0.7, 0.3)))
-
-
-def age_wide(rng):
-    """Sticks that span a factor of 30 and more: they tell the cut-off."""
-    return draw(rng, 6, rng.uniform(30, 60), ageing(rng, cut_off=(-1.0, 0.3), share=(0.05, 0.1)))
 
 
 def age_terms(rng):
@@ -147,42 +115,6 @@ def age_terms(rng):
     for run in sweep.runs:
         run.average = max(1, round(0.3 * sweep.per_slip))
     return sweep
-
-
-def age_power(rng):
-    return draw(rng, 4, rng.uniform(4, 8), ageing(rng, 1))
-
-
-def age_saturating(rng):
-    return draw(rng, 4, rng.uniform(4, 8), ageing(rng, 2))
-
-
-def age_exponential(rng):
-    return draw(rng, 4, rng.uniform(4, 8), ageing(rng, exponential=True))
-
-
-def log_falling(rng):
-    return draw(rng, 4, rng.uniform(4, 8), velocity(rng, 1))
-
-
-def log_rising(rng):
-    return draw(rng, 4, rng.uniform(4, 8), velocity(rng, 1, -1))
-
-
-def hyperbolic(rng):
-    return draw(rng, 4, rng.uniform(4, 8), velocity(rng, 2))
-
-
-def two(rng):
-    return draw(rng, 2, rng.uniform(4, 8), ageing(rng))
-
-
-def two_coulomb(rng):
-    return draw(rng, 2, rng.uniform(4, 8))
-
-
-def narrow(rng):
-    return draw(rng, 4, 1.2, ageing(rng))
 
 
 def trended(rng):
@@ -221,10 +153,6 @@ def grown(rng, scatter=0.0):
     for run in sweep.runs:
         run.model = with_stiffness(sweep.model_at(run.speed), np.exp(scatter * rng.standard_normal()))
     return sweep
-
-
-def grown_loosely(rng):
-    return grown(rng, rng.uniform(0.005, 0.03))
 
 
 def loose(rng):
@@ -268,14 +196,6 @@ def _rings(rng, times):
     for run in sweep.runs:
         run.average = width
     return sweep
-
-
-def rings(rng):
-    return _rings(rng, 1.0)
-
-
-def rings_otherwise(rng):
-    return _rings(rng, rng.uniform(1.4, 2.0))
 
 
 def drifting(rng):
@@ -352,25 +272,11 @@ def depth_measured(rng):
     return sweep
 
 
-def near_critical(rng):
-    """The fastest recordings stand near the end of stick-slip and beyond it."""
-    sweep = draw(rng, 6, rng.uniform(20, 40), zeta=(0.1, 0.3), fastest=(1.0, 2.5))
-    return sweep
-
-
 def _bad(rng, change):
     sweep = draw(rng, 5, 8)
     sweep.bad = int(rng.integers(0, 5))
     change(sweep, sweep.runs[sweep.bad])
     return sweep
-
-
-def bad_speed(rng):
-    return _bad(rng, lambda s, r: setattr(r, "stated_speed", 1.1 * r.speed))
-
-
-def bad_unit(rng):
-    return _bad(rng, lambda s, r: setattr(r, "stated_speed", r.speed / 60))
 
 
 def other_material(rng):
@@ -382,20 +288,12 @@ def other_material(rng):
     return _bad(rng, change)
 
 
-def one_file_twice(rng):
-    return _bad(rng, lambda s, r: setattr(r, "source", (s.bad + 1) % 5))
-
-
 def swapped(rng):
     sweep = draw(rng, 5, 8)
     a, b = rng.choice(5, 2, replace=False)
     sweep.runs[a].source, sweep.runs[b].source = int(b), int(a)
     sweep.bad = (int(a), int(b))
     return sweep
-
-
-def level_only(rng):
-    return _bad(rng, lambda s, r: setattr(r, "kinetic", 1.15 * r.kinetic))
 
 
 def trace(sweep, run):
@@ -416,6 +314,19 @@ def trace(sweep, run):
         return motion.time_s[::fine], measured, None
     follows = 1 + model.load_slope * (motion.force[::fine] - run.kinetic) / run.kinetic
     return motion.time_s[::fine], measured, run.measured_load * (follows + 1e-3 * rng.standard_normal(n))
+
+
+def write(sweep, folder):
+    """The recordings and the manifest, as the person who measured states them."""
+    folder.mkdir(parents=True, exist_ok=True)
+    traces = [trace(sweep, run) for run in sweep.runs]
+    loads = any(run.stated_load for run in sweep.runs)
+    lines = ["id,file,speed_m_per_s" + (",normal_force_N" if loads else "")]
+    for i, run in enumerate(sweep.runs):
+        time_s, force, normal_N = traces[i if run.source is None else run.source]
+        write_csv(folder / f"run{i}.csv", time_s, force, normal_N=normal_N)
+        lines.append(f"run{i},run{i}.csv,{run.stated_speed or run.speed:.9g}" + (f",{run.stated_load:.6g}" if loads else ""))
+    (folder / "manifest.csv").write_text("\n".join(lines) + "\n", encoding="utf-8")
 
 
 def limit_period(model, drop, kinetic, speed):
@@ -477,6 +388,32 @@ def parameters_of(sweep, sound):
     return truth
 
 
-FAMILIES = [coulomb5, coulomb3, exponential, exponential_strong, age_ln3, age_ln4, age_ln6, age_cutoff, age_wide, age_terms, age_power, age_saturating, age_exponential, log_falling,
-            log_rising, hyperbolic, two, two_coulomb, narrow, trended, grown, grown_loosely, loose, averaging, rings, rings_otherwise, drifting, zeros, wrong_loads,
-            adhesion, undersampled, near_critical, relaxing, flash, depth, depth_measured, bad_speed, bad_unit, other_material, one_file_twice, swapped, level_only]
+FAMILIES = families(
+    exponential_strong, age_terms, trended, grown, loose, averaging, drifting, zeros, wrong_loads, adhesion, undersampled, relaxing, flash, depth,
+    depth_measured, other_material, swapped,
+    coulomb5=lambda rng: draw(rng, 5, 8),
+    coulomb3=lambda rng: draw(rng, 3, rng.uniform(4, 8)),
+    exponential=lambda rng: draw(rng, 5, 8, velocity(rng, 0)),
+    age_ln3=lambda rng: draw(rng, 3, rng.uniform(4, 8), ageing(rng)),
+    age_ln4=lambda rng: draw(rng, 4, rng.uniform(4, 8), ageing(rng)),
+    age_ln6=lambda rng: draw(rng, 6, rng.uniform(8, 20), ageing(rng)),
+    age_cutoff=lambda rng: draw(rng, 4, rng.uniform(4, 8), ageing(rng, cut_off=(-0.7, 0.3))),
+    age_wide=lambda rng: draw(rng, 6, rng.uniform(30, 60), ageing(rng, cut_off=(-1.0, 0.3), share=(0.05, 0.1))),  # sticks that span a factor of 30 and more: they determine the cut-off
+    age_power=lambda rng: draw(rng, 4, rng.uniform(4, 8), ageing(rng, 1)),
+    age_saturating=lambda rng: draw(rng, 4, rng.uniform(4, 8), ageing(rng, 2)),
+    age_exponential=lambda rng: draw(rng, 4, rng.uniform(4, 8), ageing(rng, exponential=True)),
+    log_falling=lambda rng: draw(rng, 4, rng.uniform(4, 8), velocity(rng, 1)),
+    log_rising=lambda rng: draw(rng, 4, rng.uniform(4, 8), velocity(rng, 1, -1)),
+    hyperbolic=lambda rng: draw(rng, 4, rng.uniform(4, 8), velocity(rng, 2)),
+    two=lambda rng: draw(rng, 2, rng.uniform(4, 8), ageing(rng)),
+    two_coulomb=lambda rng: draw(rng, 2, rng.uniform(4, 8)),
+    narrow=lambda rng: draw(rng, 4, 1.2, ageing(rng)),
+    near_critical=lambda rng: draw(rng, 6, rng.uniform(20, 40), zeta=(0.1, 0.3), fastest=(1.0, 2.5)),  # the fastest recordings are near the end of stick-slip and above it
+    grown_loosely=lambda rng: grown(rng, rng.uniform(0.005, 0.03)),
+    rings=lambda rng: _rings(rng, 1.0),
+    rings_otherwise=lambda rng: _rings(rng, rng.uniform(1.4, 2.0)),
+    bad_speed=lambda rng: _bad(rng, lambda s, r: setattr(r, "stated_speed", 1.1 * r.speed)),
+    bad_unit=lambda rng: _bad(rng, lambda s, r: setattr(r, "stated_speed", r.speed / 60)),
+    one_file_twice=lambda rng: _bad(rng, lambda s, r: setattr(r, "source", (s.bad + 1) % 5)),
+    level_only=lambda rng: _bad(rng, lambda s, r: setattr(r, "kinetic", 1.15 * r.kinetic)),
+)

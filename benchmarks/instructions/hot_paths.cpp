@@ -10,30 +10,12 @@
 #include <string>
 
 #include "slipfit/io/recording_reader.hpp"
-#include "slipfit/model/simulation.hpp"
 #include "slipfit/pipeline.hpp"
+#include "usual_recording.hpp"
 
 namespace {
 
 using namespace slipfit;
-
-constexpr double kSpeed_m_per_s = 0.01;
-
-/// 100 cycles of 200 samples, noise of 1 % of F_s - F_k, scattering static friction: 20 000 samples.
-Recording recording() {
-  const Slider slider = Slider::create(5000.0, 900.0, 0.05).value();
-  const Friction friction = Friction::create(4.0, 3.0).value();
-  const double period_s = damped_motion(slider, friction, kSpeed_m_per_s).cycle->period_s;
-  SimulationOptions options;
-  options.duration_s = 100.0 * period_s;
-  options.sample_rate_Hz = 200.0 / period_s;
-  options.static_friction_sd_N = 0.05;
-  options.noise_rms_N = 0.01;
-  SimulatedTrace trace = simulate(slider, friction, kSpeed_m_per_s, options);
-  Conditions conditions;
-  conditions.speed_m_per_s = kSpeed_m_per_s;
-  return Recording::create(std::move(trace.time_s), std::move(trace.force_N), conditions).value();
-}
 
 std::filesystem::path write(const Recording& recording, const std::filesystem::path& folder) {
   const std::filesystem::path file = folder / "recording.csv";
@@ -51,7 +33,7 @@ std::filesystem::path write(const Recording& recording, const std::filesystem::p
 extern "C" {
 [[gnu::noinline]] bool measured_read(const std::filesystem::path& file) {
   Conditions conditions;
-  conditions.speed_m_per_s = kSpeed_m_per_s;
+  conditions.speed_m_per_s = 0.01;
   return read_recording(file, conditions).ok();
 }
 [[gnu::noinline]] bool measured_slips(const Recording& recording) {
@@ -67,7 +49,7 @@ extern "C" {
 
 int main(int count, char** words) {
   if (count < 3) return 2;
-  const Recording trace = recording();
+  const Recording trace = usual_recording(100.0, 200.0);
   const std::filesystem::path file = write(trace, words[2]);
   const Quality quality = assess_quality(trace);
   const Segmentation slips = find_slips(trace, quality);

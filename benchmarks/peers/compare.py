@@ -16,16 +16,19 @@ both of its threads included, less that of its start (--version); and the time o
 Needs python3-scipy.
 """
 
-import argparse
 import json
-import resource
+import pathlib
 import subprocess
+import sys
 import tempfile
 import time
 
 import numpy
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq, least_squares
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+from study import cost, parser  # noqa: E402
 
 TRUTH = {"stiffness_N_per_m": 5000.0, "natural_frequency_rad_per_s": 900.0, "damping_ratio": 0.05,
          "friction_difference_N": 1.0}
@@ -242,27 +245,19 @@ def report(name, ours, values, seconds, result):
           f"errors {errors(values(result.x))}, ratio {seconds / whole_s:.0f} over the command, {seconds / fit_s:.0f} over the fit")
 
 
-def run(*words):
-    before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    text = subprocess.run(words, check=True, capture_output=True, text=True).stdout
-    after = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime, text
-
-
 def fit_by_slipfit(slipfit, file):
-    start_s, _ = run(slipfit, "--version")
-    whole_s, text = run(slipfit, "fit", file, "--speed", str(SPEED), "--json", "--timing")
-    document = json.loads(text)
-    return whole_s - start_s, document["timing"]["fit_s"], [document["parameters"][name]["value"] for name in TRUTH]
+    start, whole = cost(slipfit, "--version"), cost(slipfit, "fit", file, "--speed", SPEED, "--json", "--timing")
+    document = json.loads(whole.out)
+    return whole.cpu_s - start.cpu_s, document["timing"]["fit_s"], [document["parameters"][name]["value"] for name in TRUTH]
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("slipfit")
-    parser.add_argument("--runs", type=int, default=21)
-    parser.add_argument("--samples", type=int, default=10000)
-    parser.add_argument("--cycles", type=int, default=100)
-    arguments = parser.parse_args()
+    words = parser(__doc__)
+    words.add_argument("slipfit")
+    words.add_argument("--runs", type=int, default=21)
+    words.add_argument("--samples", type=int, default=10000)
+    words.add_argument("--cycles", type=int, default=100)
+    arguments = words.parse_args()
     with tempfile.TemporaryDirectory() as folder:
         file, time_s, force = simulate(arguments.slipfit, folder, arguments.samples, arguments.cycles)
         runs = [fit_by_slipfit(arguments.slipfit, file) for _ in range(arguments.runs)]

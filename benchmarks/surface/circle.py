@@ -5,17 +5,17 @@ Each pair is simulated from one stick-slip motion: static friction scatters from
 a cosine. The track is worn over the same path: a ridge from slip to slip that leans against the sliding, deeper the longer the stick, over several passes whose
 phase wanders, with roughness, the tip of the instrument and form. `slipfit fit --surface` has to find them alike: E_n within 1 in 95 %. Of the others the
 surface is of another motion (another spacing, twice, three times): E_n beyond 1. Shares no code with slipfit. Needs numpy."""
-import argparse
 import collections
-import concurrent.futures
-import json
 import pathlib
-import subprocess
+import sys
 import tempfile
 
 import numpy as np
 
 import profiles
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+from study import Row, counts, in_parallel, is_answer, median, parser, print_table, run, share, total  # noqa: E402
 
 
 class Motion:
@@ -87,30 +87,27 @@ def compared(program, seed, number, scale):
         force_trace(rng, motion, folder / "force.csv")
         motion.scale = scale
         worn_track(rng, motion, folder / "track.csv")
-        run = subprocess.run([program, "fit", str(folder / "force.csv"), "--speed", repr(motion.speed), "--surface", str(folder / "track.csv"), "--json"],
-                             capture_output=True, text=True, check=False)
-    return json.loads(run.stdout)["derived"] if run.returncode == 0 else {"refused": run.stderr}
+        done = run(program, "fit", folder / "force.csv", "--speed", repr(motion.speed), "--surface", folder / "track.csv")
+    return done["derived"] if is_answer(done) else {"surface_verdict": done.get("message", "")}
 
 
 def main():
-    parser = argparse.ArgumentParser()
-    parser.add_argument("program")
-    parser.add_argument("--count", type=int, default=200)
-    parser.add_argument("--others", type=int, default=60)
-    parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--jobs", type=int, default=2)
-    given = parser.parse_args()
-    print("surface over force     pairs  compared  |E_n| <= 1  median reach   verdicts")
+    words = parser(__doc__)
+    words.add_argument("program")
+    words.add_argument("--count", type=int, default=200)
+    words.add_argument("--others", type=int, default=60)
+    words.add_argument("--seed", type=int, default=1)
+    words.add_argument("--jobs", type=int, default=2)
+    given = words.parse_args()
+    groups = collections.defaultdict(list)
     for scale, count in ((1.0, given.count), (0.7, given.others), (1.4, given.others), (2.0, given.others), (3.0, given.others)):
-        with concurrent.futures.ThreadPoolExecutor(given.jobs) as pool:
-            found = list(pool.map(lambda i: compared(given.program, given.seed, i, scale), range(count)))
-        scores = [f["surface_En"]["value"] for f in found if f.get("surface_En", {}).get("value") is not None]
-        reaches = [np.log(f["surface_ratio"]["ci95"][1] / f["surface_ratio"]["value"]) for f in found if f.get("surface_ratio", {}).get("ci95")]
-        words = collections.Counter(f.get("surface_verdict", f.get("refused", "")).split(":")[0][:45] for f in found)
-        within = sum(abs(s) <= 1 for s in scores)
-        share = 100 * within / len(scores) if scores else float("nan")
-        print(f"{scale:<22g}{count:>6}{len(scores):>10}{share:>10.1f} %{100 * np.median(reaches) if reaches else 0:>12.1f} %   "
-              + "; ".join(f"{n} {w}" for w, n in words.most_common(5)), flush=True)
+        for found in in_parallel(given.jobs, lambda i: compared(given.program, given.seed, i, scale), range(count)):
+            score, ratio = (found.get("surface_En") or {}).get("value"), found.get("surface_ratio") or {}
+            row = Row(pairs=1, compared=int(score is not None), verdicts=found.get("surface_verdict", "").split(":")[0][:45].replace(" ", "_"))
+            row.add("|E_n| <= 1", None if score is None else int(abs(score) <= 1))
+            row.add("reach %", 100 * np.log(ratio["ci95"][1] / ratio["value"]) if ratio.get("ci95") else None)
+            groups[f"{scale:g}"].append(row)
+    print_table({"pairs": total, "compared": total, "|E_n| <= 1": share, "reach %": median, "verdicts": counts}, groups, "surface over force", whole=None)
 
 
 if __name__ == "__main__":

@@ -4,15 +4,13 @@
 Random surfaces (white, smooth, scratched along one axis at random places), as PNG with a pixel grid (every pixel enlarged 2 to 12 times; every
 other column set off) and as JPEG of several qualities and sizes, whose blocks of 8 or 16 pixels show. Beside them ridges of a known
 spacing in JPEG of the same qualities, which have to be found. Needs Pillow."""
-import argparse
-import collections
-import json
 import pathlib
 import random
-import subprocess
 import tempfile
 
 from PIL import Image, ImageFilter
+
+from evaluate import CONTROLS, control_row, parser, print_table, run, spacing_um
 
 SIZES = ((160, 80), (400, 120), (900, 90))
 QUALITIES = (10, 30, 60, 90)
@@ -56,38 +54,31 @@ FAMILIES = {"enlarged pixels": enlarged, "odd and even columns": odd_even, "JPEG
             "JPEG, colours": lambda rng, folder: jpeg(rng, folder, "RGB")}
 
 
-def interval_px(program, file):
-    run = subprocess.run([program, "surface", str(file), "--pixel", "1um", "--json"], capture_output=True, text=True, check=False)
-    spacing = json.loads(run.stdout)["spacing_m"] if run.returncode == 0 else {"value": None}
-    return None if spacing["value"] is None else (spacing["value"] * 1e6, *(1e6 * end for end in spacing["ci95"]))
+def spacing_px(program, file):
+    return spacing_um(run(program, "surface", file, "--pixel", "1um"))
 
 
 def main():
-    parser = argparse.ArgumentParser()
-    parser.add_argument("program")
-    parser.add_argument("--each", type=int, default=30)
-    parser.add_argument("--seed", type=int, default=1)
-    given = parser.parse_args()
-    counts = collections.defaultdict(lambda: [0, 0, 0])
-    ridged = [0, 0, 0]
+    words = parser(__doc__)
+    words.add_argument("program")
+    words.add_argument("--each", type=int, default=30)
+    words.add_argument("--seed", type=int, default=1)
+    given = words.parse_args()
+    groups, ridged = {family: [] for family in FAMILIES}, [0, 0, 0]
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         for family, make in FAMILIES.items():
             for i in range(given.each):
-                found = interval_px(given.program, folder / make(random.Random(f"{given.seed} {family} {i}"), folder))
-                counts[family][0] += 1
-                counts[family][1] += found is not None
-                counts[family][2] += found is not None and (found[2] - found[1]) / 2 < 0.1 * found[0]
+                file = folder / make(random.Random(f"{given.seed} {family} {i}"), folder)
+                groups[family].append(control_row(spacing_px(given.program, file)))
         for i in range(given.each):
             rng = random.Random(f"{given.seed} ridges {i}")
             spacing = rng.uniform(18, 30)
-            found = interval_px(given.program, folder / jpeg(rng, folder, "L", spacing))
+            found = spacing_px(given.program, folder / jpeg(rng, folder, "L", spacing))
             ridged[0] += found is not None
             ridged[1] += found is not None and found[1] <= spacing <= found[2]
             ridged[2] += found is not None and abs(found[0] / spacing - 1) < 0.02
-    print("images without a pattern    n  any spacing  with an interval below 10 %")
-    for family, (n, some, small) in counts.items():
-        print(f"{family:<22}{n:>7}{some:>13}{small:>12}")
+    print_table(CONTROLS, groups, "images without a pattern", whole=None)
     print(f"\nridges in JPEG: {ridged[0]} of {given.each} answered, {ridged[1]} of them in the interval, {ridged[2]} within 2 %")
 
 

@@ -1,8 +1,18 @@
-"""Simulated profiles of worn surfaces with a known spacing, and surfaces without one. Shares no code with slipfit. Needs numpy.
+#!/usr/bin/env python3
+"""profiles.py OUT [--count 1000] [--controls 300] [--machined 60] [--seed 1]: simulated profiles and truth.jsonl.
+
+Worn surfaces with a known spacing, and surfaces without one. Shares no code with slipfit. Needs numpy.
 
 A profile is a dict: x_um, z_um (equal pitch), spacing_um (mean distance of the ridges; None for controls), family, and what was drawn.
 """
+import json
+import pathlib
+import sys
+
 import numpy as np
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+from study import parser  # noqa: E402
 
 SHAPES = ("saw", "back", "sine", "arcs", "bumps", "blocks")
 
@@ -170,3 +180,30 @@ def write(profile, file):
     with open(file, "w", encoding="utf-8") as out:
         out.write("x [um],z [um]\n")
         np.savetxt(out, np.column_stack([profile["x_um"], profile["z_um"]]), fmt="%.9g", delimiter=",")
+
+
+def main():
+    words = parser(__doc__)
+    words.add_argument("out", type=pathlib.Path)
+    words.add_argument("--count", type=int, default=1000)
+    words.add_argument("--controls", type=int, default=300)
+    words.add_argument("--machined", type=int, default=60)
+    words.add_argument("--seed", type=int, default=1)
+    given = words.parse_args()
+    given.out.mkdir(parents=True, exist_ok=True)
+    with open(given.out / "truth.jsonl", "w", encoding="utf-8") as truths:
+        for i in range(given.count + given.controls + given.machined):
+            rng, file = np.random.default_rng([given.seed, i]), f"{i:05d}.csv"
+            if i < given.count:
+                kind, made = "pattern", pattern(rng)
+            elif i < given.count + given.controls:
+                kind, made = "control", control(rng, CONTROLS[i % len(CONTROLS)])
+            else:
+                kind, made = "machined", machined(rng, MACHINED[i % len(MACHINED)])
+            write(made, given.out / file)
+            truth = {name: value for name, value in made.items() if name not in ("x_um", "z_um")}
+            truths.write(json.dumps({"file": file, "kind": kind, **truth}) + "\n")
+
+
+if __name__ == "__main__":
+    main()
