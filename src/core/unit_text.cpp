@@ -38,6 +38,8 @@ constexpr std::array kReplacements = std::to_array<Replacement>({
     {"\xE2\x88\x95", "/"},
     {"\xE2\x80\xB0", "\xE2\x80\xB0"},
     {" per ", "/"},
+    {"_per_", "/"},
+    {"N_m", "N m"},
 });
 
 // The same of single bytes in Latin-1.

@@ -82,10 +82,23 @@ NameAndUnit take_brackets(std::string_view name, char open, char close) {
   return {trim(name.substr(0, begin)), inside};
 }
 
-/// "F / N", "Force, N", "time, in s" (no inch-second), "Kraft in N", "force_N", "Time s".
+/// Where the unit of "speed_m_per_s" or "torque_N_m" begins, at its underscore; npos for one without underscores.
+std::size_t begin_of_composed_unit(std::string_view name) {
+  const auto per = name.rfind("_per_");
+  const auto last = per == std::string_view::npos ? name.rfind('_') : per;
+  if (last == std::string_view::npos || last == 0) return std::string_view::npos;
+  const auto at = name.rfind('_', last - 1);
+  const bool is_composed =
+      at != std::string_view::npos && (last == per || classify_unit(name.substr(at + 1)) == UnitClass::Torque);
+  return is_composed ? at : std::string_view::npos;
+}
+
+/// "F / N", "Force, N", "time, in s" (no inch-second), "Kraft in N", "force_N", "speed_m_per_s", "Time s".
 NameAndUnit take_suffix(std::string_view name) {
+  const auto composed = begin_of_composed_unit(name);
   for (const std::string_view separator : {"/", ",", " in ", "_", " "}) {
-    const auto at = name.rfind(separator);
+    const bool is_composed = separator == "_" && composed != std::string_view::npos;
+    const auto at = is_composed ? composed : name.rfind(separator);
     if (at == std::string_view::npos || at == 0) continue;
     std::string_view unit = trim(name.substr(at + separator.size()));
     if (separator == "," && unit.starts_with("in ")) unit = trim(unit.substr(3));

@@ -123,6 +123,8 @@ TEST_CASE("prefixes, words, products, quotients and powers agree with the short 
       {"um/s", "um*s^-1", Dimension::Speed},
       {"mm/min", "mm min-1", Dimension::Speed},
       {"mm/min", "millimeters per minute", Dimension::Speed},
+      {"mm/min", "mm_per_min", Dimension::Speed},
+      {"N m", "N_m", Dimension::Torque},
       {"m/min", "m.min-1", Dimension::Speed},
       {"m/s", "m2/(m s)", Dimension::Speed},
       {"m/s", "m\xC2\xB2/m/s", Dimension::Speed},

@@ -69,6 +69,14 @@ TEST_CASE("the tangential force is found by its name") {
   }
 }
 
+TEST_CASE("a unit of several parts follows its name behind underscores") {
+  slipfit::ReadOptions options;
+  options.force_unit = "N";
+  std::string text = "time_s,force_N,speed_mm_per_min\n";
+  for (int r = 0; r < 8; ++r) text += std::to_string(0.1 * r) + "," + std::to_string((r * r) % 7) + ",600\n";
+  CHECK(read_ok(text, options, {}).conditions().speed_m_per_s == Approx(0.01));
+}
+
 TEST_CASE("a friction coefficient with a normal force is a force") {
   for (const std::string names :
        {"time,load [N],COF", "t,Fz,mu", "Zeit,Auflast,Reibwert", "time,Fn,Coefficient of friction ()"}) {

@@ -98,11 +98,9 @@ TEST_CASE("a long table shows its first rows at once, keeps more for the script,
   const slipfit::BatchPage batch{"batch", {10001, row("run")}, {10002, {"bad", "empty", "no data"}}};
   const std::string page = to_html(batch);
   const auto rows_before = [&page](const char* what) {
+    const std::size_t end = page.find(what);
     std::size_t count = 0;
-    for (std::size_t at = page.find("<tr data-status"); at < page.find(what);
-         at = page.find("<tr data-status", at + 1)) {
-      ++count;
-    }
+    for (std::size_t at = page.find("<tr data-status"); at < end; at = page.find("<tr data-status", at + 1)) ++count;
     return count;
   };
   CHECK(rows_before("<template id=\"later\"") == 500);
