@@ -127,19 +127,26 @@ class Assembler {
     findings.samples_per_slip = samples_per_slip(recordings_, data_);
     findings.sample_interval_s = recordings_[data_.fitted.front()].recording.sample_interval_s();
     if (fit::residual_over_noise(recordings_, data_, solution) > thresholds::kLargeChi2) {
-      findings.slip_doubt = "residuals exceed the noise of the recordings: the model misses part of the slips";
+      findings.add(fit::About::Slip, ParameterStatus::Weak,
+                   "residuals exceed the noise of the recordings: the model misses part of the slips");
     }
     if (fit::is_misfit(solution)) {
-      findings.slip_doubt = findings.stiffness_doubt =
-          "residuals exceed the noise: the model misses part of the data, and the interval may be too narrow";
+      for (const auto about : {fit::About::Slip, fit::About::Stiffness}) {
+        findings.add(
+            about, ParameterStatus::Weak,
+            "residuals exceed the noise: the model misses part of the data, and the interval may be too narrow");
+      }
     }
     fit::state_trend(trend_, recordings_.front().recording.conditions(), findings);
-    if (!findings.damping.value) findings.frequency_unknown = findings.damping.note;
+    if (!findings.damping.value) {
+      findings.add(fit::About::Frequency, ParameterStatus::Unidentified, findings.damping.note);
+    }
     add_average(findings);
     add_difference_doubt(findings);
     // Only recordings with one level and one static friction separate damping from friction that depends on speed.
     if (!solution.sweep.sharing.level || !solution.sweep.sharing.difference) {
-      findings.damping_doubt = "holds for Coulomb friction only: the recordings share no level or static friction";
+      findings.add(fit::About::Damping, ParameterStatus::Weak,
+                   "holds for Coulomb friction only: the recordings share no level or static friction");
     }
     findings.law = fit::LawFindings{choice.velocity, choice.reason};
     findings.law->ageing = outcome_.static_friction;
@@ -155,14 +162,16 @@ class Assembler {
       const auto average = fit::average_of(*averaged, outcome_.spread.covariance);
       findings.fitted_average =
           symmetric(average->seconds, average->standard_error_s, static_cast<double>(data_.fitted.size()));
-      findings.slip_doubt = fit::kFittedAverage;
+      findings.add(fit::About::Slip, ParameterStatus::Weak, fit::kFittedAverage);
       findings.warnings.push_back(fit::averaged_warning(average->seconds));
     }
     if (!(averaging_ > thresholds::kNegligible) || !data_.rounding_s2) return;
-    findings.slip_doubt = "the slips are rounded as by sensor averaging over a time that the data do not determine";
+    const std::string rounded =
+        "the slips are rounded as by sensor averaging over a time that the data do not determine";
+    findings.add(fit::About::Slip, ParameterStatus::Weak, rounded);
     findings.warnings.push_back(
         {"samples_averaged",
-         findings.slip_doubt + ": state it with --sensor-average, or a filter with --sensor-filter, if it is known"});
+         rounded + ": state it with --sensor-average, or a filter with --sensor-filter, if it is known"});
   }
 
   /// Returns the mean response of the normal force in the recordings that measured one.
@@ -182,16 +191,20 @@ class Assembler {
   void add_difference_doubt(fit::Findings& findings) const {
     const bool is_mean = !outcome_.solution.sweep.sharing.difference;
     if (is_mean && !outcome_.static_friction) {
-      findings.difference_doubt = "a mean, because static friction differs between the recordings";
+      findings.add(fit::About::Difference, ParameterStatus::Weak,
+                   "a mean, because static friction differs between the recordings");
     }
     if (!outcome_.other_law) return;
     const fit::OtherLaw& other = *outcome_.other_law;
     findings.other_law = other.move;
     const double share = std::abs(data_.units.force * other.move(fit::kDifference) / model_.difference.a);
     if (!(share > thresholds::kOtherLawShare)) return;
-    findings.difference_doubt = fmt::format(
-        "kinetic friction that changes {}ally with speed explains the recordings equally well and gives {:.3g} N",
-        other.law == fit::FrictionLaw::Hyperbolic ? "hyperbolic" : "logarithmic", data_.units.force * other.difference);
+    findings.add(
+        fit::About::Difference, ParameterStatus::Weak,
+        fmt::format(
+            "kinetic friction that changes {}ally with speed explains the recordings equally well and gives {:.3g} N",
+            other.law == fit::FrictionLaw::Hyperbolic ? "hyperbolic" : "logarithmic",
+            data_.units.force * other.difference));
   }
 
   /// zeta cannot be negative: its interval is cut at 0.

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <numbers>
 #include <string>
@@ -152,13 +154,84 @@ namespace {
 
 using Id = ParameterId;
 
+/// Holds a set of parameters, one bit each.
+using Ids = std::uint32_t;
+
+template <class... Each>
+constexpr Ids ids(Each... each) {
+  return (... | (Ids{1} << static_cast<std::size_t>(each)));
+}
+
+constexpr Ids kDifferences = ids(Id::FrictionDifference, Id::FrictionCoefficientDifference);
+constexpr Ids kKinetic = ids(Id::KineticFriction, Id::KineticFrictionCoefficient);
+constexpr Ids kForces = kKinetic | ids(Id::StaticFriction, Id::StaticFrictionCoefficient);
+constexpr Ids kInertia = ids(Id::NaturalFrequency, Id::Mass);
+constexpr Ids kDampings = ids(Id::DampingRatio, Id::DampingCoefficient);
+constexpr Ids kLaw = ids(Id::FrictionSlope, Id::Alpha, Id::F0, Id::F1, Id::Ageing, Id::AgeingTime);
+constexpr Ids kAfterSlip = ids(Id::ReloadForce, Id::ReloadLength, Id::Relaxation, Id::RelaxationTime);
+constexpr Ids kSpring = ids(Id::Stiffness, Id::StiffnessExponent);
+constexpr Ids kInSlip = kDifferences | kForces | kInertia | kDampings | kLaw | ids(Id::SensorAverage, Id::SlipDistance);
+
+/// The table of doubts: which parameters each of them concerns.
+constexpr Ids concerned_by(About about) {
+  switch (about) {
+    case About::Slip:
+      return kInSlip | kAfterSlip;
+    case About::Sampling:
+      return kInSlip;
+    case About::Stiffness:
+      return kSpring | kAfterSlip | ids(Id::Mass);
+    case About::StiffnessAlone:
+      return kSpring;
+    case About::Difference:
+      return kDifferences;
+    case About::Damping:
+      return kDampings;
+    case About::Frequency:
+    case About::SameWithinSlip:
+      return kInertia;
+    case About::Average:
+      return ids(Id::SensorAverage);
+    case About::SlipDistance:
+      return ids(Id::SlipDistance);
+    case About::Rise:
+      return ids(Id::Mass, Id::SlipDistance);
+    case About::FrictionAtSpeeds:
+      return kDifferences | kKinetic | kDampings | ids(Id::SlipDistance);
+    case About::Level:
+      return kForces;
+    case About::Cycles:
+      return ~Ids{0};
+  }
+  return 0;
+}
+
+bool concerns(const Doubt& doubt, Id id) {
+  return (concerned_by(doubt.about) & ids(id)) != 0;
+}
+
+/// Orders statuses from the best to the worst.
+int severity(ParameterStatus status) {
+  constexpr std::array kOrder{ParameterStatus::Identified, ParameterStatus::Conditional, ParameterStatus::Weak,
+                              ParameterStatus::Unidentified};
+  return static_cast<int>(std::ranges::find(kOrder, status) - kOrder.begin());
+}
+
+struct Verdict {
+  ParameterStatus status = ParameterStatus::Identified;
+  std::string note;
+};
+
 class Reporter {
  public:
   Reporter(const Findings& findings, FitResult& result)
       : f_(findings),
         of_rest_(findings.intervals_at_rest()),
         model_(findings.values, findings.units),
-        result_(result) {}
+        result_(result),
+        doubts_(findings.doubts) {
+    add_own_doubts();
+  }
 
   void report() {
     result_.level_trend = f_.level_trend;
@@ -187,11 +260,50 @@ class Reporter {
     return 0.25 * (estimate.ci95->high - estimate.ci95->low) / std::abs(*estimate.value);
   }
 
-  /// Grades an estimate. `doubt` is empty where nothing but its size speaks against the estimate.
-  [[nodiscard]] ParameterStatus graded(Id id, const Estimate& estimate, const std::string& doubt) const {
-    const bool good =
-        doubt.empty() && f_.cycles >= thresholds::kFewestCycles && relative_error(estimate) < info(id).identified_below;
-    return good ? ParameterStatus::Identified : ParameterStatus::Weak;
+  void add_own_doubts() {
+    const bool is_one_speed = !f_.law || f_.law->at_one_speed;
+    const std::string follows = f_.load_response ? kLoadFollows : "";
+    if (f_.held[kLogFrequency]) std::erase_if(doubts_, [](const Doubt& d) { return d.about == About::Frequency; });
+    if (!f_.zero_known) doubts_.insert(doubts_.begin(), {About::Level, ParameterStatus::Conditional, kZeroUnknown});
+    if (!(f_.samples_per_slip > thresholds::kSlipSamples)) {
+      doubts_.push_back(
+          {About::Sampling, ParameterStatus::Weak, too_few_samples(f_.samples_per_slip, f_.sample_interval_s)});
+    }
+    if (model_.reload) doubts_.push_back({About::Rise, ParameterStatus::Weak, kRiseOfTimeOrDistance});
+    if (is_one_speed || f_.load_response) {
+      doubts_.push_back({About::FrictionAtSpeeds, ParameterStatus::Conditional, is_one_speed ? kOneSpeed : follows});
+    }
+    if (!f_.frequency_tested) {
+      doubts_.push_back(
+          {About::SameWithinSlip, ParameterStatus::Conditional, f_.load_response ? follows : kSlipsAlone});
+    }
+    if (f_.cycles < thresholds::kFewestCycles) {
+      doubts_.push_back({About::Cycles, ParameterStatus::Weak, fmt::format("only {} cycles", f_.cycles)});
+    }
+    std::ranges::stable_sort(doubts_, {}, &Doubt::about);
+  }
+
+  /// Returns the status that the interval and the doubts leave to an estimate, and why.
+  [[nodiscard]] Verdict verdict_on(Id id, const Estimate& estimate) const {
+    Verdict verdict;
+    if (!(relative_error(estimate) < info(id).identified_below)) verdict.status = ParameterStatus::Weak;
+    for (const Doubt& doubt : doubts_) {
+      if (concerns(doubt, id) && severity(doubt.best) > severity(verdict.status)) verdict.status = doubt.best;
+    }
+    const auto is_reason = [&](const Doubt& doubt) {
+      return concerns(doubt, id) && (doubt.best == verdict.status || doubt.best == ParameterStatus::Identified);
+    };
+    const auto first = std::ranges::find_if(doubts_, is_reason);
+    if (first != doubts_.end()) verdict.note = first->reason;
+    return verdict;
+  }
+
+  /// Returns why a parameter is not known at all; empty where it is.
+  [[nodiscard]] std::string why_unknown(Id id) const {
+    const auto found = std::ranges::find_if(doubts_, [id](const Doubt& doubt) {
+      return doubt.best == ParameterStatus::Unidentified && concerns(doubt, id);
+    });
+    return found == doubts_.end() ? std::string() : found->reason;
   }
 
   void add(Id id, Estimate estimate, ParameterStatus status) {
@@ -201,28 +313,15 @@ class Reporter {
     estimate.note = std::move(note);
     add(id, std::move(estimate), status);
   }
-  void add_graded(Id id, const Estimate& estimate, const std::string& doubt, std::string note) {
-    add(id, estimate, graded(id, estimate, doubt), std::move(note));
+  ParameterStatus add_graded(Id id, const Estimate& estimate) {
+    Verdict verdict = verdict_on(id, estimate);
+    add(id, estimate, verdict.status, std::move(verdict.note));
+    return verdict.status;
   }
   void add_held(Id id, double value) { add(id, {value, 0.0, Interval{value, value}, {}}, ParameterStatus::Fixed); }
   void add_unknown(Id id, const std::string& why) { add(id, unknown(why), ParameterStatus::Unidentified); }
 
   [[nodiscard]] Id in_unit(Id force, Id coefficient) const { return f_.in_newtons ? force : coefficient; }
-
-  [[nodiscard]] std::string few_cycles() const {
-    return f_.cycles < thresholds::kFewestCycles ? fmt::format("only {} cycles", f_.cycles) : std::string();
-  }
-
-  /// Returns why nothing that is read from the slip is identified.
-  [[nodiscard]] std::string slip_doubt() const {
-    if (!f_.slip_doubt.empty()) return f_.slip_doubt;
-    if (f_.samples_per_slip > thresholds::kSlipSamples) return {};
-    return too_few_samples(f_.samples_per_slip, f_.sample_interval_s);
-  }
-  [[nodiscard]] std::string or_few_cycles(const std::string& doubt) const {
-    return doubt.empty() ? few_cycles() : doubt;
-  }
-  [[nodiscard]] std::string slip_note() const { return or_few_cycles(slip_doubt()); }
 
   void report_stiffness() {
     if (!f_.in_newtons) {
@@ -230,15 +329,12 @@ class Reporter {
     } else if (f_.held[kLogStiffness]) {
       add_held(Id::Stiffness, model_.stiffness.a);
     } else {
-      const Estimate k = f_.intervals.interval_of_one_sign(model_.stiffness);
-      std::string note = f_.stiffness_doubt.empty() ? f_.stiffness_note : f_.stiffness_doubt;
-      add_graded(Id::Stiffness, k, f_.stiffness_doubt, or_few_cycles(note));
+      add_graded(Id::Stiffness, f_.intervals.interval_of_one_sign(model_.stiffness));
     }
     if (!f_.law || !f_.law->stiffness_grows) return;
     result_.parameters.back().estimate.note += fmt::format(
         "{}at {:.4g} m/s", result_.parameters.back().estimate.note.empty() ? "" : "; ", f_.units.speed_m_per_s);
-    add_graded(Id::StiffnessExponent, f_.intervals.interval_of(model_.stiffness_exponent), f_.stiffness_doubt,
-               or_few_cycles(f_.stiffness_doubt));
+    add_graded(Id::StiffnessExponent, f_.intervals.interval_of(model_.stiffness_exponent));
   }
 
   void report_friction() {
@@ -254,34 +350,29 @@ class Reporter {
     }
     const Estimate difference = of_rest_.interval_of_one_sign(model_.difference);
     const bool ages = f_.law && f_.law->ageing;
-    const std::string doubt = slip_doubt().empty() ? f_.difference_doubt : slip_doubt();
-    const ParameterStatus of_difference = on_assumption(graded(id, difference, doubt));
-    std::string note = of_difference == ParameterStatus::Conditional ? assumption() : or_few_cycles(doubt);
-    if (ages) note += fmt::format("{}at a stick time of {:.3g} s", note.empty() ? "" : "; ", f_.units.stick_s);
-    add(id, difference, of_difference, note);
+    Verdict verdict = verdict_on(id, difference);
+    if (ages) add_note(verdict.note, fmt::format("at a stick time of {:.3g} s", f_.units.stick_s));
+    add(id, difference, verdict.status, std::move(verdict.note));
     report_absolute(in_unit(Id::StaticFriction, Id::StaticFrictionCoefficient), model_.level + model_.difference);
     report_absolute(in_unit(Id::KineticFriction, Id::KineticFrictionCoefficient), model_.level);
     if (ages) report_ageing();
   }
 
   void report_ageing() {
-    add_graded(Id::Ageing, f_.intervals.interval_of(model_.ageing), slip_doubt(), slip_note());
+    add_graded(Id::Ageing, f_.intervals.interval_of(model_.ageing));
     const AgeingCutoff& cutoff = *f_.law->ageing;
     if (!cutoff.is_determined) return result_.parameters.push_back(held_cutoff(cutoff, f_.units.stick_s));
-    add_graded(Id::AgeingTime, f_.intervals.interval_of_one_sign(model_.ageing_time), slip_doubt(), slip_note());
+    add_graded(Id::AgeingTime, f_.intervals.interval_of_one_sign(model_.ageing_time));
   }
 
-  /// A force level depends on the sensor's zero, and on the part of the recording where it has a trend.
+  /// A force level depends on the sensor's zero, and on the part of the recording where it has a trend: that is said
+  /// whatever else there is to say.
   void report_absolute(Id id, const Jet& y) {
     const Estimate estimate = of_rest_.interval_of(y);
-    ParameterStatus status = graded(id, estimate, slip_doubt());
-    if (f_.zero_known && f_.level_doubt.empty()) {
-      // The peaks show F_s whatever the law.
-      if (id == Id::KineticFriction || id == Id::KineticFrictionCoefficient) status = on_assumption(status);
-      return add(id, estimate, status, status == ParameterStatus::Conditional ? assumption() : slip_note());
-    }
-    add(id, estimate, status == ParameterStatus::Identified ? ParameterStatus::Conditional : status,
-        f_.zero_known ? f_.level_doubt : kZeroUnknown);
+    Verdict verdict = verdict_on(id, estimate);
+    const auto of_level = std::ranges::find(doubts_, About::Level, &Doubt::about);
+    if (of_level != doubts_.end()) verdict.note = of_level->reason;
+    add(id, estimate, verdict.status, std::move(verdict.note));
   }
 
   void report_dynamics() {
@@ -294,40 +385,20 @@ class Reporter {
   }
 
   void report_frequency() {
-    if (!f_.frequency_unknown.empty() && !f_.held[kLogFrequency]) {
-      add_unknown(Id::NaturalFrequency, f_.frequency_unknown);
-      return f_.in_newtons ? add_unknown(Id::Mass, f_.frequency_unknown) : void();
+    const std::string why = why_unknown(Id::NaturalFrequency);
+    if (!why.empty() && !f_.held[kLogFrequency]) {
+      add_unknown(Id::NaturalFrequency, why);
+      return f_.in_newtons ? add_unknown(Id::Mass, why) : void();
     }
     const Estimate omega = f_.intervals.interval_of_one_sign(model_.omega);
     if (f_.mass_gives_frequency) {
       add(Id::NaturalFrequency, omega, ParameterStatus::Conditional, kStatedMass);
     } else if (f_.held[kLogFrequency]) {
       add_held(Id::NaturalFrequency, model_.omega.a);
-    } else {
-      add_of_slips(Id::NaturalFrequency, omega, slip_doubt());
+    } else if (add_graded(Id::NaturalFrequency, omega) == ParameterStatus::Conditional) {
+      result_.conditional_on.emplace_back(kSameWithinSlip);
     }
     if (f_.in_newtons) report_mass();
-  }
-
-  /// Adds w_n or m, which the slips show only where nothing but the spring changes along them.
-  void add_of_slips(Id id, const Estimate& estimate, const std::string& doubt) {
-    const ParameterStatus status = graded(id, estimate, doubt);
-    if (status != ParameterStatus::Identified || f_.frequency_tested) {
-      return add(id, estimate, status, or_few_cycles(doubt));
-    }
-    if (id == Id::NaturalFrequency) result_.conditional_on.emplace_back(kSameWithinSlip);
-    add(id, estimate, ParameterStatus::Conditional, f_.load_response ? kLoadFollows : kSlipsAlone);
-  }
-
-  /// Returns the assumption on which F_s - F_k and zeta rest; empty where there is none.
-  [[nodiscard]] std::string assumption() const {
-    if (!f_.law || f_.law->at_one_speed) return kOneSpeed;
-    return f_.load_response ? kLoadFollows : "";
-  }
-
-  /// Returns the status of F_s - F_k, zeta or what follows from them.
-  [[nodiscard]] ParameterStatus on_assumption(ParameterStatus status) const {
-    return status == ParameterStatus::Identified && !assumption().empty() ? ParameterStatus::Conditional : status;
   }
 
   void report_mass() {
@@ -338,15 +409,14 @@ class Reporter {
     if (f_.mass_gives_frequency) {
       return add(Id::Mass, f_.intervals.interval_of_one_sign(m), ParameterStatus::Conditional, kStatedMass);
     }
-    const std::string doubt = slip_doubt().empty() ? f_.stiffness_doubt : slip_doubt();
     Estimate estimate = f_.intervals.interval_of_one_sign(m);
-    if (f_.load_response)
+    if (f_.load_response) {
       estimate = widened(estimate, f_.load_response->standard_error / (1.0 - f_.load_response->share));
-    if (!model_.reload) return add_of_slips(Id::Mass, estimate, doubt);
-    const std::string why = doubt.empty() ? kRiseOfTimeOrDistance : doubt;
-    add_graded(Id::Mass,
-               including_relaxation(estimate, [this](const Jet& k) { return k / (model_.omega * model_.omega); }), why,
-               why);
+    }
+    if (model_.reload) {
+      estimate = including_relaxation(estimate, [this](const Jet& k) { return k / (model_.omega * model_.omega); });
+    }
+    add_graded(Id::Mass, estimate);
   }
 
   /// The estimate of a quantity that follows from the stiffness in the slip, with an interval that includes what it is
@@ -396,13 +466,9 @@ class Reporter {
   void report_damping() {
     if (f_.held[kDamping]) return add_held(Id::DampingRatio, model_.zeta.a);
     if (!f_.damping_known()) return add_unknown(Id::DampingRatio, f_.damping.note);
-    const std::string doubt = slip_doubt().empty() ? f_.damping_doubt : slip_doubt();
-    const ParameterStatus status = on_assumption(graded(Id::DampingRatio, f_.damping, doubt));
-    const std::string why = or_few_cycles(doubt);
-    add(Id::DampingRatio, f_.damping, status,
-        status == ParameterStatus::Weak          ? (why.empty() ? weak_damping(f_.damping) : why)
-        : status == ParameterStatus::Conditional ? assumption()
-                                                 : "");
+    const auto [status, why] = verdict_on(Id::DampingRatio, f_.damping);
+    const bool is_wide = status == ParameterStatus::Weak && why.empty();
+    add(Id::DampingRatio, f_.damping, status, is_wide ? weak_damping(f_.damping) : why);
     if (!f_.in_newtons) return;
     // c = 2 zeta k / w_n, [Paper] eq. (6); zeta is never negative, and nor is c.
     const Jet unit = 2.0 * model_.stiffness / model_.omega;
@@ -411,42 +477,36 @@ class Reporter {
     Estimate c = f_.intervals.interval_of(zeta * unit);
     c.value = std::max(0.0, *c.value);
     c.ci95 = Interval{f_.damping.ci95->low * unit.a, std::max(f_.damping.ci95->high * unit.a, c.ci95->high)};
-    add(Id::DampingCoefficient, c, status, status == ParameterStatus::Conditional ? assumption() : "");
+    add(Id::DampingCoefficient, c, status, status == ParameterStatus::Conditional ? why : "");
   }
 
   void report_slip_distance() {
-    if (!f_.slip_distance_unknown.empty()) return add_unknown(Id::SlipDistance, f_.slip_distance_unknown);
+    const std::string why = why_unknown(Id::SlipDistance);
+    if (!why.empty()) return add_unknown(Id::SlipDistance, why);
     if (!f_.weakens || !f_.slip_unresolved.empty()) return;
     const Estimate distance = f_.intervals.interval_of_one_sign(model_.slip_distance);
     const bool is_informative = relative_error(distance) < thresholds::kInformativeError;
     if (!is_informative) return add_unknown(Id::SlipDistance, "it cannot be distinguished from 0, Coulomb friction");
-    if (model_.reload) {
-      // D_c is what the slip shows of k D_c / (F_s - F_k).
-      const auto of_stiffness = [this](const Jet& k) { return model_.slip_distance * model_.stiffness / k; };
-      const std::string why = slip_doubt().empty() ? kRiseOfTimeOrDistance : slip_doubt();
-      return add_graded(Id::SlipDistance, including_relaxation(distance, of_stiffness), why, why);
-    }
-    const ParameterStatus status = on_assumption(graded(Id::SlipDistance, distance, slip_doubt()));
-    add(Id::SlipDistance, distance, status, status == ParameterStatus::Conditional ? assumption() : slip_note());
+    // D_c is what the slip shows of k D_c / (F_s - F_k).
+    const auto of_stiffness = [this](const Jet& k) { return model_.slip_distance * model_.stiffness / k; };
+    add_graded(Id::SlipDistance, model_.reload ? including_relaxation(distance, of_stiffness) : distance);
   }
 
   void report_average(const Estimate& average) {
-    if (!f_.average_unknown.empty()) return add_unknown(Id::SensorAverage, f_.average_unknown);
-    add_graded(Id::SensorAverage, average, slip_doubt(), slip_note());
+    const std::string why = why_unknown(Id::SensorAverage);
+    if (!why.empty()) return add_unknown(Id::SensorAverage, why);
+    add_graded(Id::SensorAverage, average);
   }
 
+  /// The rise begins where the slips end: what rounds or misses these moves it.
   void report_reload(const Reload& reload) {
-    // It begins where the slips end: what rounds or misses these moves it.
-    const std::string doubt = f_.stiffness_doubt.empty() ? f_.slip_doubt : f_.stiffness_doubt;
-    const std::string note = or_few_cycles(doubt);
-    if (f_.in_newtons) add_graded(Id::ReloadForce, f_.intervals.interval_of_one_sign(reload.force_N), doubt, note);
-    add_graded(Id::ReloadLength, f_.intervals.interval_of_one_sign(reload.length_m), doubt, note);
+    if (f_.in_newtons) add_graded(Id::ReloadForce, f_.intervals.interval_of_one_sign(reload.force_N));
+    add_graded(Id::ReloadLength, f_.intervals.interval_of_one_sign(reload.length_m));
   }
 
   void report_relaxation(const Relaxation& relaxation) {
-    const std::string doubt = f_.stiffness_doubt.empty() ? f_.slip_doubt : f_.stiffness_doubt;
-    add_graded(Id::Relaxation, f_.intervals.interval_of_one_sign(relaxation.share), doubt, or_few_cycles(doubt));
-    add_graded(Id::RelaxationTime, f_.intervals.interval_of_one_sign(relaxation.time_s), doubt, or_few_cycles(doubt));
+    add_graded(Id::Relaxation, f_.intervals.interval_of_one_sign(relaxation.share));
+    add_graded(Id::RelaxationTime, f_.intervals.interval_of_one_sign(relaxation.time_s));
   }
 
   static std::string why_only_slope(const Estimate& slope) {
@@ -458,20 +518,20 @@ class Reporter {
   void report_law() {
     if (!f_.law->depends_on_speed) return withhold_law("not required by the data: " + f_.law->reason);
     const Estimate slope = along([](const SlidingModel& model) { return model.slope; });
-    add_graded(Id::FrictionSlope, slope, slip_doubt(), slip_doubt());
+    add_graded(Id::FrictionSlope, slope);
     const Estimate alpha = f_.intervals.interval_of_one_sign(model_.alpha);
     // Nearer to 0 than 3 standard errors: those that come out so large by chance would be reported, the others not.
     const double relative = relative_error(f_.intervals.interval_of(model_.alpha));
     if (!(relative < thresholds::kInformativeError)) return withhold_law(why_only_slope(within(slope, kAnyNumber)));
     const std::string bends = "the speeds show little of the curvature; f1 alpha is known better";
     const auto noted = [&](ParameterStatus status) { return status == ParameterStatus::Weak ? bends : ""; };
-    const ParameterStatus of_alpha = graded(Id::Alpha, alpha, slip_doubt());
+    const ParameterStatus of_alpha = verdict_on(Id::Alpha, alpha).status;
     add(Id::Alpha, alpha, of_alpha, noted(of_alpha));
     const Estimate f0 = along([](const SlidingModel& model) { return model.level - model.slope / model.alpha; });
     const Estimate f1 = along([](const SlidingModel& model) { return model.slope / model.alpha; });
     // f1 = slope / alpha bends with alpha: where alpha is not sharp, the tails reach further than the interval shows.
     const bool sharp = 2.0 * relative < info(Id::F1).identified_below;
-    const ParameterStatus status = sharp ? graded(Id::F1, f1, slip_doubt()) : ParameterStatus::Weak;
+    const ParameterStatus status = sharp ? verdict_on(Id::F1, f1).status : ParameterStatus::Weak;
     report_law_forces(f0, f1, status, noted(status));
   }
 
@@ -504,9 +564,14 @@ class Reporter {
   Intervals of_rest_;
   SlidingModel model_;
   FitResult& result_;
+  std::vector<Doubt> doubts_;  ///< by precedence
 };
 
 }  // namespace
+
+bool Findings::has_doubt(About about) const {
+  return std::ranges::any_of(doubts, [about](const Doubt& doubt) { return doubt.about == about; });
+}
 
 void report_parameters(const Findings& findings, FitResult& result) {
   Reporter(findings, result).report();

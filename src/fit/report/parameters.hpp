@@ -65,6 +65,32 @@ Parameter held_cutoff(const AgeingCutoff& cutoff, double stick_s);
 /// Returns the assumptions that the numbers of one recording rest on.
 std::vector<std::string> conditions_of(const Recording& recording, Tier tier);
 
+/// States what a doubt is about, by precedence: the first one that concerns a parameter is its note. `concerned_by` in
+/// parameters.cpp says which parameters each of them concerns.
+enum class About {
+  Slip,              ///< all that is read from the slip
+  Sampling,          ///< of the slip
+  Stiffness,         ///< k, and what rests on it
+  StiffnessAlone,    ///< k
+  Difference,        ///< F_s - F_k
+  Damping,           ///< zeta
+  Frequency,         ///< w_n that is read from the slips
+  Average,           ///< of the sensor
+  SlipDistance,      ///< of friction that weakens
+  Rise,              ///< of the force after a slip: of time or of distance
+  FrictionAtSpeeds,  ///< kinetic friction at other speeds
+  SameWithinSlip,    ///< friction and load within a slip
+  Level,             ///< absolute forces
+  Cycles             ///< their number
+};
+
+/// Says why parameters are less certain than their intervals.
+struct Doubt {
+  About about = About::Slip;
+  ParameterStatus best = ParameterStatus::Weak;  ///< that it leaves; Identified: it is a remark
+  std::string reason;
+};
+
 /// Holds what is known of friction that depends on the speed; only a sweep has it.
 struct LawFindings {
   bool depends_on_speed = false;
@@ -88,32 +114,26 @@ struct Findings {
   std::size_t cycles = 0;
   double samples_per_slip = 0.0;
   double sample_interval_s = 0.0;
-  /// States why nothing that is read from the slip is identified; empty: no reason.
-  std::string slip_doubt{};
-  /// States why F_s - F_k(0+) is not identified, for a mean over recordings whose static friction differs, or where
-  /// another law of kinetic friction gives another value; empty: no reason.
-  std::string difference_doubt{};
-  /// Says how far that other law moves F_k(0+) and F_s - F_k(0+), which lengthens their intervals.
+  std::vector<Doubt> doubts{};  ///< those about the same that were added later precede
+  /// Says how far another law of kinetic friction moves F_k(0+) and F_s - F_k(0+), which lengthens their intervals.
   Coordinates other_law = Coordinates::Zero();
-  /// States why k is not identified, whatever its interval; empty: no reason.
-  std::string stiffness_doubt{};
-  std::string stiffness_note{};
-  std::string level_doubt{};  ///< why absolute forces depend on the part of the recording; empty: they do not
   LevelTrend level_trend{};
-  std::string frequency_unknown{};  ///< why there is no natural frequency to read from the slips; empty: there is
   std::optional<double> sensor_average_s{};     ///< stated, in the model
   std::optional<Estimate> fitted_average{};     ///< s, found by the fit
-  std::string average_unknown{};                ///< why it is unknown whether there is one
-  std::string damping_doubt{};                  ///< why zeta is not identified
   std::string slip_unresolved{};                ///< why w_n and F_s - F_k cannot be read from the slip; empty: they can
   std::optional<Interval> difference_bounds{};  ///< all that is known of F_s - F_k
   std::optional<LawFindings> law{};
-  bool weakens = false;                 ///< friction falls over a slip distance, in the model
-  std::string slip_distance_unknown{};  ///< why D_c was asked for in vain; empty: it was not
-  bool frequency_tested = false;        ///< the slips' w_n agrees with a ring-down or a stated mass
+  bool weakens = false;           ///< friction falls over a slip distance, in the model
+  bool frequency_tested = false;  ///< the slips' w_n agrees with a ring-down or a stated mass
   std::optional<LoadResponse> load_response{};
   bool mass_gives_frequency = false;  ///< w_n is held at sqrt(k / m) of the stated mass, whose error the spread holds
   Warnings warnings{};
+
+  /// Adds a doubt if it has a reason.
+  void add(About about, ParameterStatus best, std::string reason) {
+    if (!reason.empty()) doubts.insert(doubts.begin(), {about, best, std::move(reason)});
+  }
+  [[nodiscard]] bool has_doubt(About about) const;
 
   /// Returns the intervals of F_k(0+) and F_s - F_k(0+), which depend on the law below the speeds that were measured.
   [[nodiscard]] Intervals intervals_at_rest() const {

@@ -59,8 +59,9 @@ void state_trend(const TrendFindings& trend, const Conditions& conditions, Findi
   if (std::abs(trend.log_k_to_other) > error_of(kLogStiffness)) of_stiffness = note_on_stiffness(trend);
   const std::optional<Interval>& range = trend.trend.level_range;
   if (range && std::max(-range->low, range->high) > findings.units.force * error_of(kLevel)) {
-    findings.level_doubt =
-        fmt::format("a mean: the force level changes by {:.3g}{} over the recording", range->high - range->low, unit);
+    findings.add(
+        About::Level, ParameterStatus::Conditional,
+        fmt::format("a mean: the force level changes by {:.3g}{} over the recording", range->high - range->low, unit));
   }
   findings.level_trend = trend.trend;
   if (trend.is_significant && conditions.drift == LevelReading::None) {
@@ -69,12 +70,14 @@ void state_trend(const TrendFindings& trend, const Conditions& conditions, Findi
                                     "those of the recording as it is",
                                     words_for_rate(trend.trend, unit))});
   }
-  if (of_stiffness.empty() && findings.level_doubt.empty()) return;
+  if (of_stiffness.empty() && !findings.has_doubt(About::Level)) return;
   std::string message =
       fmt::format("the force level {}: {}", words_for_rate(trend.trend, unit), words_for(trend.trend.reading));
   if (!of_stiffness.empty()) message += "; " + of_stiffness;
   findings.warnings.push_back({"level_trend", std::move(message)});
-  if (findings.stiffness_note.empty()) findings.stiffness_note = std::move(of_stiffness);
+  if (!findings.has_doubt(About::StiffnessAlone)) {
+    findings.add(About::StiffnessAlone, ParameterStatus::Identified, std::move(of_stiffness));
+  }
 }
 
 namespace {
@@ -285,8 +288,12 @@ void state_conditions(const Recording& recording, Findings& findings) {
 void state_law(const DampedFit& fit, Findings& findings) {
   findings.weakens = fit.blocks.scales().law == FrictionLaw::Weakening;
   findings.mass_gives_frequency = fit.mass_gives_frequency;
-  findings.average_unknown = fit.average_doubt;
-  if (!fit.law_doubt.empty()) (findings.weakens ? findings.slip_doubt : findings.slip_distance_unknown) = fit.law_doubt;
+  findings.add(About::Average, ParameterStatus::Unidentified, fit.average_doubt);
+  if (findings.weakens) {
+    findings.add(About::Slip, ParameterStatus::Weak, fit.law_doubt);
+  } else {
+    findings.add(About::SlipDistance, ParameterStatus::Unidentified, fit.law_doubt);
+  }
 }
 
 /// Returns why w_n and zeta cannot be read from the slips of a contact that is not the model's and not seen as it is;
@@ -333,15 +340,18 @@ void state_doubts(const Conditions& conditions, const TierFits& fits, const Reso
                      std::sqrt(*residual.reduced_chi2))});
   }
   if (const std::optional<double>& zeta = fits.damped.refused_damping) {
-    findings.frequency_unknown = no_damped_oscillation(*zeta) +
-                                 "; friction, creep or the sensor may determine the slip time instead of the mass";
-    findings.slip_doubt = findings.frequency_unknown;
+    const std::string why = no_damped_oscillation(*zeta) +
+                            "; friction, creep or the sensor may determine the slip time instead of the mass";
+    findings.add(About::Frequency, ParameterStatus::Unidentified, why);
+    findings.add(About::Slip, ParameterStatus::Weak, why);
   } else if (fits.damped.misfit) {
     // A sensor that lags, or creep, moves w_n more than leaving out parts of the slip shows.
-    findings.slip_doubt = "the slip is not a damped oscillation: the error of w_n may exceed its interval";
+    findings.add(About::Slip, ParameterStatus::Weak,
+                 "the slip is not a damped oscillation: the error of w_n may exceed its interval");
   } else if (large) {
-    findings.slip_doubt = fmt::format("residuals are {}larger than the noise: the interval may be too narrow",
-                                      coloured ? "correlated and " : "");
+    findings.add(About::Slip, ParameterStatus::Weak,
+                 fmt::format("residuals are {}larger than the noise: the interval may be too narrow",
+                             coloured ? "correlated and " : ""));
   }
   findings.slip_unresolved =
       resolution.slip_resolved ? doubt_of_fall(conditions, fits.damped, residual, findings) : resolution.reason;
@@ -405,14 +415,13 @@ Findings findings_of(const Recording& recording, const TierFits& fits, const Res
   state_conditions(recording, findings);
   findings.cycles = blocks.size();
   findings.samples_per_slip = resolution.samples_per_slip;
-  findings.stiffness_note = std::move(stiffness.note);
-  findings.stiffness_doubt = std::move(stiffness.doubt);
+  findings.add(About::StiffnessAlone, ParameterStatus::Identified, stiffness.note);
+  findings.add(About::Stiffness, ParameterStatus::Weak, stiffness.doubt);
+  // Bent sticks begin and end in other slips than the model's.
+  if (!stiffness.warnings.empty()) findings.add(About::Slip, ParameterStatus::Weak, stiffness.note);
+  findings.add(About::Slip, ParameterStatus::Weak, averaging.doubt);
   findings.warnings = std::move(stiffness.warnings);
   findings.fitted_average = fitted_average_of(fits.damped);
-  // Bent sticks begin and end in other slips than the model's.
-  findings.slip_doubt = !averaging.doubt.empty()    ? averaging.doubt
-                        : findings.warnings.empty() ? ""
-                                                    : findings.stiffness_note;
   findings.warnings.insert(findings.warnings.end(), averaging.warnings.begin(), averaging.warnings.end());
   state_trend(trend, recording.conditions(), findings);
   state_law(fits.damped, findings);
