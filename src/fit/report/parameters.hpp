@@ -38,7 +38,8 @@ inline constexpr const char* kLoadFollows =
     "the measured normal force follows the force, and friction with it: m includes this; w_n, zeta and F_s - F_k are "
     "those of the slips";
 /// States what both depend on, for FitResult::conditional_on.
-inline constexpr const char* kSameWithinSlip = "friction and a load that stay the same within a slip (w_n and m)";
+inline constexpr const char* kSameWithinSlip =
+    "friction (for w_n and m) and a load (for zeta and F_s - F_k, too) that stay the same within a slip";
 
 /// States the source of w_n and mass that are not read from the slips.
 inline constexpr const char* kRingDown = "the free ring-down, which was used as data for w_n and zeta";
