@@ -15,6 +15,7 @@
 #include "analysis/conclusions.hpp"
 #include "analysis/detect.hpp"
 #include "analysis/estimate.hpp"
+#include "analysis/ranges.hpp"
 #include "analysis/ring_down.hpp"
 #include "analysis/rules.hpp"
 #include "analysis/sweep_checks.hpp"

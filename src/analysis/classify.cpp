@@ -7,6 +7,7 @@
 
 #include "analysis/detect.hpp"
 #include "analysis/estimate.hpp"
+#include "analysis/harmonic_null.hpp"
 #include "core/thresholds.hpp"
 #include "signal/smoothing.hpp"
 

@@ -4,26 +4,9 @@
 
 #include "analysis/detect.hpp"
 #include "analysis/measured_drive.hpp"
-#include "slipfit/analysis.hpp"
-#include "slipfit/core/recording.hpp"
 #include "slipfit/fit/fit.hpp"
-#include "slipfit/fit/sweep.hpp"
 
 namespace slipfit {
-
-/// Root mean square of what three harmonics of about this frequency, on a straight level, leave of a few cycles at a
-/// time, in the unit of the force column: the null model that stick-slip has to beat. Empty below 5 cycles.
-std::optional<double> harmonic_residual_rms(const Recording& recording, double frequency_Hz);
-
-// Every number of a result in the range of its quantity (`within`), or unknown: text, page, tables and JSON show the
-// same. Before anything is derived from the numbers.
-FitResult in_range(FitResult fit, const Conditions& conditions);
-FrequencyReport in_range(FrequencyReport frequency);
-CycleStatistics in_range(CycleStatistics cycles);
-Derived in_range(Derived derived);
-Transients in_range(Transients transients);
-std::optional<Coefficients> in_range(std::optional<Coefficients> coefficients);
-std::optional<SweepFit> in_range(std::optional<SweepFit> sweep);
 
 /// Repetition frequency and fit of the stretch that slides, with the slips that both rest on.
 struct Estimates {

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <optional>
+
+#include "slipfit/core/recording.hpp"
+
+namespace slipfit {
+
+/// Root mean square of what three harmonics of about this frequency, on a straight level, leave of a few cycles at a
+/// time, in the unit of the force column: the null model that stick-slip has to beat. Empty below 5 cycles.
+std::optional<double> harmonic_residual_rms(const Recording& recording, double frequency_Hz);
+
+}  // namespace slipfit
