@@ -142,7 +142,7 @@ class Assembler {
       findings.add(fit::About::Frequency, ParameterStatus::Unidentified, findings.damping.note);
     }
     add_average(findings);
-    add_difference_doubt(findings);
+    add_difference_caveat(findings);
     // Only recordings with one level and one static friction separate damping from friction that depends on speed.
     if (!solution.sweep.sharing.level || !solution.sweep.sharing.difference) {
       findings.add(fit::About::Damping, ParameterStatus::Weak,
@@ -188,7 +188,7 @@ class Assembler {
     return responses.empty() ? std::nullopt : std::optional(fit::mean_response(responses));
   }
 
-  void add_difference_doubt(fit::Findings& findings) const {
+  void add_difference_caveat(fit::Findings& findings) const {
     const bool is_mean = !outcome_.solution.sweep.sharing.difference;
     if (is_mean && !outcome_.static_friction) {
       findings.add(fit::About::Difference, ParameterStatus::Weak,
@@ -304,9 +304,9 @@ std::optional<SweepFit> fit_at_once(std::span<const SweepRecording> recordings, 
   std::optional<fit::SweepFits> fits = fit::solve_sweep(data, options);
   if (!fits) return std::nullopt;
   fit::ChosenLaw law = fit::choose_law(data, *std::move(fits), options.tier, fit::speed_ratio(recordings));
-  const std::optional<Warning> ring_doubt = fit::join_ring_downs(recordings, stated, data, law.outcome);
+  const std::optional<Warning> ring_caveat = fit::join_ring_downs(recordings, stated, data, law.outcome);
   SweepFit sweep = Assembler(recordings, data, law.outcome).assemble(law.choice);
-  if (ring_doubt) sweep.result.warnings.push_back(*ring_doubt);
+  if (ring_caveat) sweep.result.warnings.push_back(*ring_caveat);
   sweep.ring_down_used = data.motion.has_value();
   sweep.result.candidates = law.candidates;
   return sweep;

@@ -172,7 +172,7 @@ constexpr Ids kAfterSlip = ids(Id::ReloadForce, Id::ReloadLength, Id::Relaxation
 constexpr Ids kSpring = ids(Id::Stiffness, Id::StiffnessExponent);
 constexpr Ids kInSlip = kDifferences | kForces | kInertia | kDampings | kLaw | ids(Id::SensorAverage, Id::SlipDistance);
 
-/// The table of doubts: which parameters each of them concerns.
+/// The table of caveats: which parameters each of them concerns.
 constexpr Ids concerned_by(About about) {
   switch (about) {
     case About::Slip:
@@ -206,8 +206,8 @@ constexpr Ids concerned_by(About about) {
   return 0;
 }
 
-bool concerns(const Doubt& doubt, Id id) {
-  return (concerned_by(doubt.about) & ids(id)) != 0;
+bool concerns(const Caveat& caveat, Id id) {
+  return (concerned_by(caveat.about) & ids(id)) != 0;
 }
 
 /// Orders statuses from the best to the worst.
@@ -229,8 +229,8 @@ class Reporter {
         of_rest_(findings.intervals_at_rest()),
         model_(findings.values, findings.units),
         result_(result),
-        doubts_(findings.doubts) {
-    add_own_doubts();
+        caveats_(findings.caveats) {
+    add_own_caveats();
   }
 
   void report() {
@@ -260,50 +260,50 @@ class Reporter {
     return 0.25 * (estimate.ci95->high - estimate.ci95->low) / std::abs(*estimate.value);
   }
 
-  void add_own_doubts() {
+  void add_own_caveats() {
     const bool is_one_speed = !f_.law || f_.law->at_one_speed;
     const std::string follows = f_.load_response ? kLoadFollows : "";
-    if (f_.held[kLogFrequency]) std::erase_if(doubts_, [](const Doubt& d) { return d.about == About::Frequency; });
-    if (!f_.zero_known) doubts_.insert(doubts_.begin(), {About::Level, ParameterStatus::Conditional, kZeroUnknown});
+    if (f_.held[kLogFrequency]) std::erase_if(caveats_, [](const Caveat& d) { return d.about == About::Frequency; });
+    if (!f_.zero_known) caveats_.insert(caveats_.begin(), {About::Level, ParameterStatus::Conditional, kZeroUnknown});
     if (!(f_.samples_per_slip > thresholds::kSlipSamples)) {
-      doubts_.push_back(
+      caveats_.push_back(
           {About::Sampling, ParameterStatus::Weak, too_few_samples(f_.samples_per_slip, f_.sample_interval_s)});
     }
-    if (model_.reload) doubts_.push_back({About::Rise, ParameterStatus::Weak, kRiseOfTimeOrDistance});
+    if (model_.reload) caveats_.push_back({About::Rise, ParameterStatus::Weak, kRiseOfTimeOrDistance});
     if (is_one_speed || f_.load_response) {
-      doubts_.push_back({About::FrictionAtSpeeds, ParameterStatus::Conditional, is_one_speed ? kOneSpeed : follows});
+      caveats_.push_back({About::FrictionAtSpeeds, ParameterStatus::Conditional, is_one_speed ? kOneSpeed : follows});
     }
     if (!f_.frequency_tested) {
-      doubts_.push_back(
+      caveats_.push_back(
           {About::SameWithinSlip, ParameterStatus::Conditional, f_.load_response ? follows : kSlipsAlone});
     }
     if (f_.cycles < thresholds::kFewestCycles) {
-      doubts_.push_back({About::Cycles, ParameterStatus::Weak, fmt::format("only {} cycles", f_.cycles)});
+      caveats_.push_back({About::Cycles, ParameterStatus::Weak, fmt::format("only {} cycles", f_.cycles)});
     }
-    std::ranges::stable_sort(doubts_, {}, &Doubt::about);
+    std::ranges::stable_sort(caveats_, {}, &Caveat::about);
   }
 
-  /// Returns the status that the interval and the doubts leave to an estimate, and why.
+  /// Returns the status that the interval and the caveats leave to an estimate, and why.
   [[nodiscard]] Verdict verdict_on(Id id, const Estimate& estimate) const {
     Verdict verdict;
     if (!(relative_error(estimate) < info(id).identified_below)) verdict.status = ParameterStatus::Weak;
-    for (const Doubt& doubt : doubts_) {
-      if (concerns(doubt, id) && severity(doubt.best) > severity(verdict.status)) verdict.status = doubt.best;
+    for (const Caveat& caveat : caveats_) {
+      if (concerns(caveat, id) && severity(caveat.best) > severity(verdict.status)) verdict.status = caveat.best;
     }
-    const auto is_reason = [&](const Doubt& doubt) {
-      return concerns(doubt, id) && (doubt.best == verdict.status || doubt.best == ParameterStatus::Identified);
+    const auto is_reason = [&](const Caveat& caveat) {
+      return concerns(caveat, id) && (caveat.best == verdict.status || caveat.best == ParameterStatus::Identified);
     };
-    const auto first = std::ranges::find_if(doubts_, is_reason);
-    if (first != doubts_.end()) verdict.note = first->reason;
+    const auto first = std::ranges::find_if(caveats_, is_reason);
+    if (first != caveats_.end()) verdict.note = first->reason;
     return verdict;
   }
 
   /// Returns why a parameter is not known at all; empty where it is.
   [[nodiscard]] std::string why_unknown(Id id) const {
-    const auto found = std::ranges::find_if(doubts_, [id](const Doubt& doubt) {
-      return doubt.best == ParameterStatus::Unidentified && concerns(doubt, id);
+    const auto found = std::ranges::find_if(caveats_, [id](const Caveat& caveat) {
+      return caveat.best == ParameterStatus::Unidentified && concerns(caveat, id);
     });
-    return found == doubts_.end() ? std::string() : found->reason;
+    return found == caveats_.end() ? std::string() : found->reason;
   }
 
   void add(Id id, Estimate estimate, ParameterStatus status) {
@@ -370,8 +370,8 @@ class Reporter {
   void report_absolute(Id id, const Jet& y) {
     const Estimate estimate = of_rest_.interval_of(y);
     Verdict verdict = verdict_on(id, estimate);
-    const auto of_level = std::ranges::find(doubts_, About::Level, &Doubt::about);
-    if (of_level != doubts_.end()) verdict.note = of_level->reason;
+    const auto of_level = std::ranges::find(caveats_, About::Level, &Caveat::about);
+    if (of_level != caveats_.end()) verdict.note = of_level->reason;
     add(id, estimate, verdict.status, std::move(verdict.note));
   }
 
@@ -564,13 +564,13 @@ class Reporter {
   Intervals of_rest_;
   SlidingModel model_;
   FitResult& result_;
-  std::vector<Doubt> doubts_;  ///< by precedence
+  std::vector<Caveat> caveats_;  ///< by precedence
 };
 
 }  // namespace
 
-bool Findings::has_doubt(About about) const {
-  return std::ranges::any_of(doubts, [about](const Doubt& doubt) { return doubt.about == about; });
+bool Findings::has_caveat(About about) const {
+  return std::ranges::any_of(caveats, [about](const Caveat& caveat) { return caveat.about == about; });
 }
 
 void report_parameters(const Findings& findings, FitResult& result) {

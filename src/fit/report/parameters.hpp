@@ -66,7 +66,7 @@ Parameter held_cutoff(const AgeingCutoff& cutoff, double stick_s);
 /// Returns the assumptions that the numbers of one recording rest on.
 std::vector<std::string> conditions_of(const Recording& recording, Tier tier);
 
-/// States what a doubt is about, by precedence: the first one that concerns a parameter is its note. `concerned_by` in
+/// States what a caveat is about, by precedence: the first one that concerns a parameter is its note. `concerned_by` in
 /// parameters.cpp says which parameters each of them concerns.
 enum class About {
   Slip,              ///< all that is read from the slip
@@ -86,7 +86,7 @@ enum class About {
 };
 
 /// Says why parameters are less certain than their intervals.
-struct Doubt {
+struct Caveat {
   About about = About::Slip;
   ParameterStatus best = ParameterStatus::Weak;  ///< that it leaves; Identified: it is a remark
   std::string reason;
@@ -115,7 +115,7 @@ struct Findings {
   std::size_t cycles = 0;
   double samples_per_slip = 0.0;
   double sample_interval_s = 0.0;
-  std::vector<Doubt> doubts{};  ///< those about the same that were added later precede
+  std::vector<Caveat> caveats{};  ///< those about the same that were added later precede
   /// Says how far another law of kinetic friction moves F_k(0+) and F_s - F_k(0+), which lengthens their intervals.
   Coordinates other_law = Coordinates::Zero();
   LevelTrend level_trend{};
@@ -130,11 +130,11 @@ struct Findings {
   bool mass_gives_frequency = false;  ///< w_n is held at sqrt(k / m) of the stated mass, whose error the spread holds
   Warnings warnings{};
 
-  /// Adds a doubt if it has a reason.
+  /// Adds a caveat if it has a reason.
   void add(About about, ParameterStatus best, std::string reason) {
-    if (!reason.empty()) doubts.insert(doubts.begin(), {about, best, std::move(reason)});
+    if (!reason.empty()) caveats.insert(caveats.begin(), {about, best, std::move(reason)});
   }
-  [[nodiscard]] bool has_doubt(About about) const;
+  [[nodiscard]] bool has_caveat(About about) const;
 
   /// Returns the intervals of F_k(0+) and F_s - F_k(0+), which depend on the law below the speeds that were measured.
   [[nodiscard]] Intervals intervals_at_rest() const {

@@ -70,12 +70,12 @@ void state_trend(const TrendFindings& trend, const Conditions& conditions, Findi
                                     "those of the recording as it is",
                                     words_for_rate(trend.trend, unit))});
   }
-  if (of_stiffness.empty() && !findings.has_doubt(About::Level)) return;
+  if (of_stiffness.empty() && !findings.has_caveat(About::Level)) return;
   std::string message =
       fmt::format("the force level {}: {}", words_for_rate(trend.trend, unit), words_for(trend.trend.reading));
   if (!of_stiffness.empty()) message += "; " + of_stiffness;
   findings.warnings.push_back({"level_trend", std::move(message)});
-  if (!findings.has_doubt(About::StiffnessAlone)) {
+  if (!findings.has_caveat(About::StiffnessAlone)) {
     findings.add(About::StiffnessAlone, ParameterStatus::Identified, std::move(of_stiffness));
   }
 }
@@ -144,7 +144,7 @@ const BlockFit& reported(const TierFits& fits) {
 struct StiffnessFindings {
   double variance = 0.0;  ///< of ln k
   std::string note;
-  std::string doubt;  ///< why k is not identified, whatever its interval; empty: no reason
+  std::string caveat;  ///< why k is not identified, whatever its interval; empty: no reason
   Warnings warnings;
 };
 
@@ -188,7 +188,7 @@ StiffnessFindings stiffness_of(const Recording& recording, const TierFits& fits)
         fmt::format("the sticks are curved: their slope {} by {:.1f} % {}; the interval of k includes this",
                     bend->log_ratio > 0.0 ? "decreases" : "increases", 100.0 * std::abs(bend->log_ratio), bend->where);
     result.warnings.push_back({"model_misfit", result.note});
-    if (std::abs(bend->log_ratio) > thresholds::kNegligible) result.doubt = result.note;
+    if (std::abs(bend->log_ratio) > thresholds::kNegligible) result.caveat = result.note;
   }
   if (const std::optional<StickRipple> ripple = ripple_of(fits.damped)) {
     result.variance += std::pow(ripple->log_stiffness, 2);
@@ -215,7 +215,7 @@ Spread spread_of(const DampedFit& fit) {
 /// Holds what averaging in the instrument may have changed if its duration is not stated.
 struct AveragingFindings {
   Coordinates one_sided = Coordinates::Zero();
-  std::string doubt;  ///< of all that is read from the slip
+  std::string caveat;  ///< of all that is read from the slip
   Warnings warnings;
 };
 
@@ -226,7 +226,7 @@ AveragingFindings averaging_of(const Recording& recording, const DampedFit& fit,
   if (recording.conditions().sensor_average_s) return result;
   if (fit.average) {
     result.warnings.push_back(averaged_warning(fit.average->seconds));
-    result.doubt = kFittedAverage;
+    result.caveat = kFittedAverage;
     return result;
   }
   const double step_s = recording.sample_interval_s();
@@ -237,9 +237,9 @@ AveragingFindings averaging_of(const Recording& recording, const DampedFit& fit,
   result.one_sided = unstated_variance_s2(fit, *seen, step_s) * seen->move_per_s2;
   if (rounded) {
     const double average_s = std::sqrt(12.0 * seen->variance_s2);
-    result.doubt = fmt::format("the slips are rounded as by sensor averaging over {:.2g} ms", 1e3 * average_s);
+    result.caveat = fmt::format("the slips are rounded as by sensor averaging over {:.2g} ms", 1e3 * average_s);
     result.warnings.push_back(
-        {"samples_averaged", result.doubt +
+        {"samples_averaged", result.caveat +
                                  " or by friction that changes during the slip; intervals include this. State what is "
                                  "known with --sensor-average or --sensor-filter"});
   }
@@ -288,24 +288,24 @@ void state_conditions(const Recording& recording, Findings& findings) {
 void state_law(const DampedFit& fit, Findings& findings) {
   findings.weakens = fit.blocks.scales().law == FrictionLaw::Weakening;
   findings.mass_gives_frequency = fit.mass_gives_frequency;
-  findings.add(About::Average, ParameterStatus::Unidentified, fit.average_doubt);
+  findings.add(About::Average, ParameterStatus::Unidentified, fit.average_caveat);
   if (findings.weakens) {
-    findings.add(About::Slip, ParameterStatus::Weak, fit.law_doubt);
+    findings.add(About::Slip, ParameterStatus::Weak, fit.law_caveat);
   } else {
-    findings.add(About::SlipDistance, ParameterStatus::Unidentified, fit.law_doubt);
+    findings.add(About::SlipDistance, ParameterStatus::Unidentified, fit.law_caveat);
   }
 }
 
 /// Returns why w_n and zeta cannot be read from the slips of a contact that is not the model's and not seen as it is;
 /// empty where they can. A fall that the sensor's average draws out fits as well as a slow slip then.
-std::string doubt_of_fall(const Conditions& conditions, const DampedFit& fit, const Residual& residual,
-                          const Findings& findings) {
+std::string caveat_of_fall(const Conditions& conditions, const DampedFit& fit, const Residual& residual,
+                           const Findings& findings) {
   const auto stated_mass = [&] {
     return fmt::format("the stated mass of {:.3g} kg does not explain the slips", *conditions.mass_kg);
   };
-  if (!fit.fall_doubt.empty()) {
+  if (!fit.fall_caveat.empty()) {
     const bool is_rejected = conditions.mass_kg && !fit.mass_gives_frequency;
-    return fit.fall_doubt + ": " +
+    return fit.fall_caveat + ": " +
            (is_rejected ? stated_mass() : std::string("state the average with --sensor-average, or the mass"));
   }
   const bool coloured = residual.whiteness_p && *residual.whiteness_p < thresholds::kProven;
@@ -325,8 +325,8 @@ std::string doubt_of_fall(const Conditions& conditions, const DampedFit& fit, co
 }
 
 /// States why what is read from the slip is not determined, or not surely.
-void state_doubts(const Conditions& conditions, const TierFits& fits, const Resolution& resolution,
-                  const Residual& residual, Findings& findings) {
+void state_caveats(const Conditions& conditions, const TierFits& fits, const Resolution& resolution,
+                   const Residual& residual, Findings& findings) {
   // White residuals that exceed the noise are noise of the slips, which the scatter of the cycles has in the
   // covariance.
   const bool coloured = !residual.whiteness_p || *residual.whiteness_p < thresholds::kProven;
@@ -354,7 +354,7 @@ void state_doubts(const Conditions& conditions, const TierFits& fits, const Reso
                              coloured ? "correlated and " : ""));
   }
   findings.slip_unresolved =
-      resolution.slip_resolved ? doubt_of_fall(conditions, fits.damped, residual, findings) : resolution.reason;
+      resolution.slip_resolved ? caveat_of_fall(conditions, fits.damped, residual, findings) : resolution.reason;
   const bool is_resolved = findings.slip_unresolved.empty() && resolution.damping_resolved;
   if (!is_resolved) {
     const std::string& why = findings.slip_unresolved.empty() ? resolution.reason : findings.slip_unresolved;
@@ -416,10 +416,10 @@ Findings findings_of(const Recording& recording, const TierFits& fits, const Res
   findings.cycles = blocks.size();
   findings.samples_per_slip = resolution.samples_per_slip;
   findings.add(About::StiffnessAlone, ParameterStatus::Identified, stiffness.note);
-  findings.add(About::Stiffness, ParameterStatus::Weak, stiffness.doubt);
+  findings.add(About::Stiffness, ParameterStatus::Weak, stiffness.caveat);
   // Bent sticks begin and end in other slips than the model's.
   if (!stiffness.warnings.empty()) findings.add(About::Slip, ParameterStatus::Weak, stiffness.note);
-  findings.add(About::Slip, ParameterStatus::Weak, averaging.doubt);
+  findings.add(About::Slip, ParameterStatus::Weak, averaging.caveat);
   findings.warnings = std::move(stiffness.warnings);
   findings.fitted_average = fitted_average_of(fits.damped);
   findings.warnings.insert(findings.warnings.end(), averaging.warnings.begin(), averaging.warnings.end());
@@ -427,7 +427,7 @@ Findings findings_of(const Recording& recording, const TierFits& fits, const Res
   state_law(fits.damped, findings);
   findings.frequency_tested = fits.damped.motion || agrees_with_stated_mass(recording.conditions(), fits.damped);
   findings.load_response = load_response(recording, SlidingModel(values, findings.units).level.a, findings.cycles);
-  state_doubts(recording.conditions(), fits, resolution, residual, findings);
+  state_caveats(recording.conditions(), fits, resolution, residual, findings);
   return findings;
 }
 

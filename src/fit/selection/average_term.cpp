@@ -111,7 +111,7 @@ struct AverageTrial {
 /// Tries the fit with one parameter more, the time W over which the instrument averages its samples (docs/model.md
 /// section 7), where it is not stated and `plain`, the fit without, shows a sign of it. Its covariance includes that of
 /// W. It is not taken where W does not explain all that `plain` misses of the slips or a sensor of first order explains
-/// it as well. Where the slips do not determine W, DampedFit::fall_doubt says so; where another W explains them as
+/// it as well. Where the slips do not determine W, DampedFit::fall_caveat says so; where another W explains them as
 /// well, intervals include both fits.
 AverageTrial try_average(const FitInput& input, const DampedFit& plain) {
   if (!may_be_averaged(input, plain)) return {};
@@ -135,7 +135,7 @@ AverageTrial try_average(const FitInput& input, const DampedFit& plain) {
   if (!is_taken && !hides_damping(fit->blocks)) return {};
   if (!is_taken) return {std::nullopt, std::move(fit)};
   if (!slip_is_identifiable(*fit)) {
-    fit->fall_doubt = "the data cannot separate the slips from the sensor averaging that rounds them";
+    fit->fall_caveat = "the data cannot separate the slips from the sensor averaging that rounds them";
   }
   if (other) fit = widened_by_rival(*std::move(fit), *other);
   return {std::move(fit), std::nullopt};

@@ -21,27 +21,27 @@ Chosen with_weakening(Chosen chosen, const FitInput& input, std::optional<Tier> 
   if (!is_asked && (forced || !may_weaken(input, chosen.fits.damped))) return chosen;
   WeakeningTrial trial = try_weakening(input, chosen.fits.damped, forced);
   Candidate& candidate = trial.candidate;
-  const std::string doubt = candidate.chosen ? "" : candidate.reason;
+  const std::string caveat = candidate.chosen ? "" : candidate.reason;
   if (is_asked) candidate = requested(std::move(candidate));
   if (candidate.chosen) {
     for (Candidate& other : chosen.candidates) other.chosen = false;
     if (trial.fit) {
-      if (!doubt.empty()) trial.fit->law_doubt = doubt;
+      if (!caveat.empty()) trial.fit->law_caveat = caveat;
       chosen.fits = {fit_sawtooth(*trial.fit), std::nullopt, *std::move(trial.fit)};
       chosen.resolution = resolution_of(input.recording, chosen.fits);
       const bool is_negative = chosen.fits.damped.blocks.parameters.values(kDamping) < 0.0;
       if (is_negative && !chosen.fits.damped.held[kDamping])
         chosen.fits.undamped = fit_undamped(chosen.fits.damped, false);
     } else {
-      chosen.fits.damped.law_doubt = doubt;
+      chosen.fits.damped.law_caveat = caveat;
       chosen.resolution.slip_resolved = chosen.resolution.damping_resolved = false;
-      chosen.resolution.reason = doubt;
+      chosen.resolution.reason = caveat;
     }
   }
   for (const DampedFit& rival : trial.rivals) {
     chosen.fits.damped = widened_by_rival(std::move(chosen.fits.damped), rival);
   }
-  chosen.fits.damped.average_doubt = trial.average_doubt;
+  chosen.fits.damped.average_caveat = trial.average_caveat;
   chosen.candidates.push_back(std::move(candidate));
   if (trial.warning) chosen.warnings.push_back(*std::move(trial.warning));
   return chosen;
@@ -70,7 +70,7 @@ std::optional<Chosen> with_motion(Chosen chosen, const FitInput& input, std::opt
                                   const FreeMotion& motion) {
   DampedFit& slips = chosen.fits.damped;
   const std::vector<Coordinates> rivals = std::exchange(slips.rivals, {});
-  slips.fall_doubt.clear();
+  slips.fall_caveat.clear();
   std::optional<DampedFit> fit = held_at(motion, input, std::move(slips));
   if (!fit) return std::nullopt;
   // What another fit makes of w_n and zeta the ring-down has decided.

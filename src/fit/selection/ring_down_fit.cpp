@@ -84,7 +84,7 @@ std::optional<RingEvidence> ring_evidence(const Recording& recording, const Damp
       motion_of_slips(coordinates_of(fit.blocks), fit.uncertainty.covariance, off_by_averaging(recording, fit));
   const FreeMotion rings = motion_of(ring, fit.uncertainty.degrees_of_freedom);
   const SameMotion same = compare_motions(slips, rings);
-  if (same.differs && !fit.fall_doubt.empty()) return std::nullopt;
+  if (same.differs && !fit.fall_caveat.empty()) return std::nullopt;
   return RingEvidence{slips, rings, same};
 }
 

@@ -51,13 +51,13 @@ struct DampedFit {
   std::optional<FittedAverage> average{};  ///< in the model and its covariance; empty: stated, or none
   /// Holds the values of fits with more terms that the data do not rule out. Intervals include them, too.
   std::vector<Coordinates> rivals{};
-  std::string average_doubt{};        ///< why it is unknown whether there is one; empty: it is known, or there is none
-  std::string fall_doubt{};           ///< why w_n and zeta cannot be read from the slips; empty: they can
+  std::string average_caveat{};       ///< why it is unknown whether there is one; empty: it is known, or there is none
+  std::string fall_caveat{};          ///< why w_n and zeta cannot be read from the slips; empty: they can
   bool mass_gives_frequency = false;  ///< w_n is held at sqrt(k / m) of a stated m; the covariance holds its error
   /// Holds the motion of slips and ring-down together, at which w_n and zeta are held; the covariance includes its
   /// errors.
   std::optional<FreeMotion> motion{};
-  std::string law_doubt{};  ///< why the friction law was not the data's choice; empty: it was
+  std::string law_caveat{};  ///< why the friction law was not the data's choice; empty: it was
 };
 
 /// Standard error of the coordinate kSensorTime.

@@ -205,7 +205,7 @@ WeakeningTrial compared_with_filter(WeakeningTrial trial, const FitInput& input,
   const std::size_t order = filter->blocks.scales().sensor_order;
   const double corner_Hz = butterworth_delay(order) / (2.0 * std::numbers::pi * filter->blocks.sensor().lag_s);
   trial.fit = widened_by_rival(*std::move(trial.fit), *filter);
-  trial.fit->law_doubt = fmt::format(
+  trial.fit->law_caveat = fmt::format(
       "a low-pass filter of the instrument (order {}, {:.2g} Hz) explains the slips as well as friction that "
       "weakens over a slip distance; --sensor-filter states one",
       order, corner_Hz);
@@ -233,11 +233,11 @@ WeakeningTrial try_weakening(const FitInput& input, const DampedFit& coulomb, st
     const double gain = gain_on_same_samples(*trial.fit, coulomb) + (coulomb.average ? 2.0 : 0.0);
     trial.candidate = judged(std::move(trial.candidate), *trial.fit, coulomb, gain, missed);
     if (coulomb.average && !trial.candidate.chosen && gain > -thresholds::kTierPrice) {
-      trial.average_doubt = fmt::format(
+      trial.average_caveat = fmt::format(
           "friction that weakens over a slip distance of {:.2g} um explains the slips as well as the average of the "
           "sensor: the data cannot separate the two",
           1e6 * slip_distance_m(*trial.fit));
-      trial.warning = Warning{"samples_averaged", trial.average_doubt};
+      trial.warning = Warning{"samples_averaged", trial.average_caveat};
       trial.rivals.push_back(*trial.fit);
     }
   } else {

@@ -14,7 +14,7 @@ namespace slipfit::fit {
 struct WeakeningTrial {
   std::optional<DampedFit> fit;  ///< empty: there is none
   Candidate candidate;
-  std::string average_doubt{};      ///< of the fit that stays where this is not chosen: DampedFit::average_doubt
+  std::string average_caveat{};     ///< of the fit that stays where this is not chosen: DampedFit::average_caveat
   std::vector<DampedFit> rivals{};  ///< of the fit that stays where this is not chosen: not ruled out
   std::optional<Warning> warning;   ///< an average of the sensor explains the slips as well
 };

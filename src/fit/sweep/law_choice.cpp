@@ -210,7 +210,7 @@ SweepData without_average(SweepData data) {
     scales.free_time = FreeTime::None;
     fit.blocks = fit.blocks.with_scales(scales);
     fit.average.reset();
-    fit.fall_doubt.clear();
+    fit.fall_caveat.clear();
   }
   data.average.reset();
   return data;
