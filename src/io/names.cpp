@@ -82,23 +82,27 @@ NameAndUnit take_brackets(std::string_view name, char open, char close) {
   return {trim(name.substr(0, begin)), inside};
 }
 
-/// Where the unit of "speed_m_per_s" or "torque_N_m" begins, at its underscore; npos for one without underscores.
-std::size_t begin_of_composed_unit(std::string_view name) {
+bool is_unit(UnitClass unit) {
+  return unit != UnitClass::None && unit != UnitClass::NotAUnit;
+}
+
+/// Returns the underscore before the unit of a name: the last one, or that before "m_per_s" and "N_m".
+std::size_t underscore_before_unit(std::string_view name) {
   const auto per = name.rfind("_per_");
-  const auto last = per == std::string_view::npos ? name.rfind('_') : per;
-  if (last == std::string_view::npos || last == 0) return std::string_view::npos;
-  const auto at = name.rfind('_', last - 1);
-  const bool is_composed =
-      at != std::string_view::npos && (last == per || classify_unit(name.substr(at + 1)) == UnitClass::Torque);
-  return is_composed ? at : std::string_view::npos;
+  const auto last = name.rfind('_');
+  const auto inner = std::min(per, last);
+  if (inner == std::string_view::npos || inner == 0) return last;
+  const auto at = name.rfind('_', inner - 1);
+  if (at == std::string_view::npos) return last;
+  const UnitClass composed = classify_unit(name.substr(at + 1));
+  const bool is_composed = inner == per ? is_unit(composed) : composed == UnitClass::Torque;
+  return is_composed ? at : last;
 }
 
 /// "F / N", "Force, N", "time, in s" (no inch-second), "Kraft in N", "force_N", "speed_m_per_s", "Time s".
 NameAndUnit take_suffix(std::string_view name) {
-  const auto composed = begin_of_composed_unit(name);
   for (const std::string_view separator : {"/", ",", " in ", "_", " "}) {
-    const bool is_composed = separator == "_" && composed != std::string_view::npos;
-    const auto at = is_composed ? composed : name.rfind(separator);
+    const auto at = separator == "_" ? underscore_before_unit(name) : name.rfind(separator);
     if (at == std::string_view::npos || at == 0) continue;
     std::string_view unit = trim(name.substr(at + separator.size()));
     if (separator == "," && unit.starts_with("in ")) unit = trim(unit.substr(3));
@@ -109,8 +113,7 @@ NameAndUnit take_suffix(std::string_view name) {
     }
     const UnitClass unit_class = classify_unit(unit);
     const bool is_loose = separator == "_" || separator == " ";  // "Sensor A", "Channel 1", "Load C"
-    if (unit_class == UnitClass::None || unit_class == UnitClass::NotAUnit || (is_loose && may_be_a_word(unit)))
-      continue;
+    if (!is_unit(unit_class) || (is_loose && may_be_a_word(unit))) continue;
     return {trim(name.substr(0, at)), unit};
   }
   const auto slash = name.rfind('/');

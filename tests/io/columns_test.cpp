@@ -75,6 +75,8 @@ TEST_CASE("a unit of several parts follows its name behind underscores") {
   std::string text = "time_s,force_N,speed_mm_per_min\n";
   for (int r = 0; r < 8; ++r) text += std::to_string(0.1 * r) + "," + std::to_string((r * r) % 7) + ",600\n";
   CHECK(read_ok(text, options, {}).conditions().speed_m_per_s == Approx(0.01));
+  const auto force = read_ok(table("time_s,signal,mean_force_per_contact_mN"));
+  CHECK(force.force()[0] == Approx(2e-3));
 }
 
 TEST_CASE("a friction coefficient with a normal force is a force") {
