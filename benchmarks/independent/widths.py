@@ -3,7 +3,8 @@
 
 Recordings of undisturbed stick-slip with 6, 12 and 25 samples in a slip are fitted twice: as they are, and with `--sensor-average 0`, where the
 rms error is that of the Cramer-Rao bound (benchmarks/results/coverage.txt). A line of the table for each number of samples: width of the
-interval over that of the second fit (median), intervals that hold, and those that are given.
+interval over that of the second fit (median), intervals that hold, those that are given, and those of parameters that are identified or
+conditional.
 """
 import pathlib
 import sys
@@ -20,10 +21,13 @@ from study import Row, in_parallel, median, parser, print_table, run, share  # n
 SHORT = dict(zip(PARAMETERS, ("k", "dF", "w_n", "zeta")))
 
 
-def width(document, name):
+def interval(document, name):
     parameter = (document.get("parameters") or {}).get(name) or {}
-    ends = parameter.get("ci95")
-    return (ends[1] - ends[0], ends, parameter["status"]) if ends and parameter["value"] is not None else None
+    return parameter["ci95"] if parameter.get("ci95") and parameter["value"] is not None else None
+
+
+def is_known(document, name):
+    return ((document.get("parameters") or {}).get(name) or {}).get("status") in ("identified", "conditional")
 
 
 def main():
@@ -44,18 +48,19 @@ def main():
         as_it_is, stated = (run(given.program, "fit", file, *speed, *more) for more in ((), ("--sensor-average", 0)))
         row = Row()
         for name, short in SHORT.items():
-            seen, best, true = width(as_it_is, name), width(stated, name), made.truth["parameters"].get(name)
+            seen, best, true = interval(as_it_is, name), interval(stated, name), made.truth["parameters"].get(name)
             row.add(f"{short} given", seen is not None)
+            row.add(f"{short} known", is_known(as_it_is, name))
             if seen is None or best is None or true is None:
                 continue
-            row.add(f"{short} width", seen[0] / best[0])
-            row.add(f"{short} holds", seen[1][0] <= true <= seen[1][1])
-            row.add(f"{short} holds, stated", best[1][0] <= true <= best[1][1])
+            row.add(f"{short} width", (seen[1] - seen[0]) / (best[1] - best[0]))
+            row.add(f"{short} holds", seen[0] <= true <= seen[1])
+            row.add(f"{short} holds, stated", best[0] <= true <= best[1])
         return samples, row
 
     rows = in_parallel(2, row_of, [(samples, seed) for samples in (6, 12, 25) for seed in range(given.seed, given.seed + given.count)])
     columns = {f"{short} {what}": how for short in SHORT.values()
-               for what, how in (("width", median), ("holds", share), ("holds, stated", share), ("given", share))}
+               for what, how in (("width", median), ("holds", share), ("holds, stated", share), ("given", share), ("known", share))}
     print_table(columns, {samples: [row for of, row in rows if of == samples] for samples in (6, 12, 25)}, name="samples", whole="")
 
 
