@@ -262,7 +262,7 @@ std::optional<Apart> furthest(std::span<const SweepEntry> entries, std::vector<A
   const Apart& other = recordings[agreeing == Agreeing::Half ? recordings.size() / 2 : 1];
   const bool beyond = first.errors > thresholds::kLeftOutErrors && std::abs(first.distance) > thresholds::kLeftOutShare;
   const bool is_distinct = beyond && first.errors > thresholds::kDistinctRatio * other.errors;
-  // What goes with the speed, without it too, is no fault of one recording.
+  // A trend with the speed, with this recording and without it, is no fault of one recording.
   const auto others = std::span(recordings).subspan(1);
   const bool is_trend = go_with_speed(entries, recordings) && go_with_speed(entries, others);
   return is_distinct && !is_trend ? std::optional(first) : std::nullopt;

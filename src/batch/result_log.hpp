@@ -18,7 +18,7 @@
 //   DIGEST error SLOT FAILURE  its line of failures.csv
 //   DIGEST end SLOT            it was stopped, or brought nothing new
 // The digest is that of the rest of the line: a line that is torn or was altered is left out. A finished batch has the
-// final files in its place (final_files.hpp).
+// final files in its place (folder.hpp).
 
 namespace slipfit::batch {
 

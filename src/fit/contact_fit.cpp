@@ -320,7 +320,7 @@ void tabulate_contact(const ContactCycles& found, std::vector<Cycle>& cycles) {
   }
 }
 
-/// Error of the mean plateau, and how it goes with that of the mean jump, over the cycles.
+/// Holds the variance of the mean plateau and its covariance with the mean jump, over the cycles.
 struct PlateauFindings {
   double mean = 0.0, variance = 0.0, with_jump = 0.0;
 };

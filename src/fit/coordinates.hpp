@@ -9,7 +9,7 @@
 namespace slipfit::fit {
 
 /// The parameters of a fit, dimensionless, in the order of every vector and matrix of it. A fit solves for those that
-/// its law, its sensor and its recordings have (cycle/columns.hpp); the others are means over the cycles, or lines
+/// its law, its sensor and its recordings have (Columns); the others are means over the cycles, or lines
 /// through the recordings' own values. With F_k(v) = F_k(0+) + b (exp(alpha v) - 1) / alpha (docs/model.md section 5;
 /// b = f1 alpha is its slope at v = 0, finite where alpha -> 0 and f1 has no limit) and v_c =
 /// Units::slip_speed_m_per_s:

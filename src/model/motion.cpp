@@ -1,11 +1,11 @@
-#include "model/motion.hpp"
+#include "slipfit/model/motion.hpp"
 
 #include <cmath>
 #include <limits>
 #include <numbers>
 
+#include "model/parameter_error.hpp"
 #include "model/slip.hpp"
-#include "slipfit/model/motion.hpp"
 
 namespace slipfit {
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "model/motion.hpp"
+#include "model/parameter_error.hpp"
 
 namespace slipfit {
 

@@ -2,6 +2,7 @@
 
 // One slip with velocity-dependent friction, scaled (velocity_law.hpp), followed by steps of its Taylor series: with or
 // without its derivatives, to the instant at which it comes to rest.
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -237,8 +238,6 @@ class SlipTrace {
   double steps_ = 0.0;
 };
 
-struct SlipNode;
-
 /// Spring force above F_k(0+) in units of k V / w_n with its derivatives at fixed tau: WavePoint (slip.hpp) with two
 /// derivatives more.
 struct TrackPoint {
@@ -257,7 +256,7 @@ struct TrackEnd {
   double third = 0.0;        ///< z'''
 };
 
-/// One cycle with friction that depends on the sliding speed, for fits: the slip of velocity_slip.hpp to 1e-7, with its
+/// One cycle with friction that depends on the sliding speed, for fits: the slip above to 1e-7, with its
 /// derivatives, at any time. In z = s - 2 zeta:
 ///   z'' + 2 zeta z' + z = g(v) = slope (exp(rate v) - 1) / rate,  v = 1 - z',  z(0) = z0, z'(0) = 1
 /// (docs/model.md section 5): slope = b w_n / k with b the slope of F_k(v) at v = 0, rate = alpha V. At rate 0 friction

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "model/motion.hpp"
+#include "model/parameter_error.hpp"
 #include "model/velocity_law.hpp"
 #include "slipfit/model/motion.hpp"
 #include "slipfit/model/velocity_friction.hpp"

@@ -1,6 +1,7 @@
 #pragma once
 
 // The delta method: what follows from a fitted model, with exact derivatives. docs/formats.md says what the bands mean.
+
 #include <ceres/jet.h>
 #include <algorithm>
 #include <cmath>

@@ -30,7 +30,7 @@ std::string document_on_one_thread(const Recording& recording, const FitOptions&
 
 TEST_CASE("a large recording is fitted alike on one thread and on several") {
   Scene s;
-  s.cycles = 3000.0;  // more than side_by_side.hpp and events.cpp ask for
+  s.cycles = 3000.0;  // more than cycle_data.hpp and events.cpp ask for
   s.noise = 0.02;
   s.jitter = 0.03;
   s.drift_over_drop = 0.5;

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "model/motion.hpp"
+#include "model/parameter_error.hpp"
 #include "model/velocity_slip.hpp"
 #include "model/velocity_units.hpp"
 

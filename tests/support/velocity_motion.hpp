@@ -1,6 +1,6 @@
 #pragma once
 
-// The exact motion under friction that depends on the speed, which fits and predictions (model/velocity_track.hpp, to
+// The exact motion under friction that depends on the speed, which fits and predictions (model/velocity_slip.hpp, to
 // 1e-7) and simulations are held against.
 
 #include <array>

@@ -161,8 +161,8 @@ struct CycleRise {
 
 /// The residuals of one cycle: (data - model) / noise for every sample around the slip, and two for each stick bin (its
 /// mean and its slope, weighted as the samples in it). The model is a friction law (law/) as the sensor shows it
-/// (observation/) above a level. In a sweep one residual more ties F_s of the cycle to the population's, and one ties a
-/// level of its own to F_k(0+).
+/// (shown_motion.hpp) above a level. In a sweep one residual more ties F_s of the cycle to the population's, and one
+/// ties a level of its own to F_k(0+).
 class CycleModel {
  public:
   /// The set, the scales and the columns must outlive the model.

@@ -49,8 +49,8 @@ class RoundedCopies {
 
 inline constexpr unsigned kRoundedCopies = 24;
 
-/// The spread of refits to such copies in place of the white-noise covariance, or added to that of the jackknife. Each
-/// row of `moves`: what one refit moves the coordinates by.
+/// Returns the uncertainty with the spread of refits to such copies, which replaces the white-noise covariance or is
+/// added to that of the jackknife. A row of `moves` holds the move of the coordinates by one refit.
 Uncertainty with_rounding(Uncertainty uncertainty, const Moves& moves);
 
 }  // namespace slipfit::fit

@@ -72,7 +72,7 @@ StackedResidual stacked_residual(const BlockFit& fit, const BlockFit& phases);
 /// what a refit without one stretch moves the coordinates by.
 Uncertainty with_misfit(Uncertainty uncertainty, const Moves& moves);
 
-/// Returns the moves of the coordinates by leaving out one stretch of the slips (misfit.hpp): a row for each stretch
+/// Returns the moves of the coordinates by leaving out one stretch of the slips: a row for each stretch
 /// without which the shared parameters can still be determined. It takes one Gauss-Newton step from the solution
 /// instead of a refit: within a tenth of it, where the result is a spread that widens intervals. Joined ramps are let
 /// go, which makes the moves larger if anything.

@@ -56,7 +56,7 @@ class SpeedDependentMotion {
 };
 
 /// One cycle under friction that depends on the sliding speed, as the sensor shows it, in the units of
-/// model/velocity_track.hpp: integrated.
+/// model/velocity_slip.hpp: integrated.
 class SpeedDependentCycle {
  public:
   using Point = ShownPoint;

@@ -27,7 +27,7 @@ struct SolveOptions {
 /// Holds the weight of a cycle that is far worse than the others (SolveOptions::robust).
 struct HuberWeight {
   double factor = 1.0;  ///< of its squares in the normal equations
-  double sum = 0.0;     ///< in place of its sum of squares
+  double sum = 0.0;     ///< that replaces its sum of squares
 };
 
 /// Returns the weight of a cycle. `norm` is the root of the sum of squares of its `residuals` residuals; above a bound

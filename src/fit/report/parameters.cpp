@@ -262,8 +262,9 @@ class Reporter {
 
   void add_own_caveats() {
     const bool is_one_speed = !f_.law || f_.law->at_one_speed;
-    const std::string follows = f_.load_response ? kLoadFollows : "";
-    if (f_.held[kLogFrequency]) std::erase_if(caveats_, [](const Caveat& d) { return d.about == About::Frequency; });
+    if (f_.held[kLogFrequency]) {
+      std::erase_if(caveats_, [](const Caveat& caveat) { return caveat.about == About::Frequency; });
+    }
     if (!f_.zero_known) caveats_.insert(caveats_.begin(), {About::Level, ParameterStatus::Conditional, kZeroUnknown});
     if (!(f_.samples_per_slip > thresholds::kSlipSamples)) {
       caveats_.push_back(
@@ -271,11 +272,12 @@ class Reporter {
     }
     if (model_.reload) caveats_.push_back({About::Rise, ParameterStatus::Weak, kRiseOfTimeOrDistance});
     if (is_one_speed || f_.load_response) {
-      caveats_.push_back({About::FrictionAtSpeeds, ParameterStatus::Conditional, is_one_speed ? kOneSpeed : follows});
+      caveats_.push_back(
+          {About::FrictionAtSpeeds, ParameterStatus::Conditional, is_one_speed ? kOneSpeed : kLoadFollows});
     }
     if (!f_.frequency_tested) {
       caveats_.push_back(
-          {About::SameWithinSlip, ParameterStatus::Conditional, f_.load_response ? follows : kSlipsAlone});
+          {About::SameWithinSlip, ParameterStatus::Conditional, f_.load_response ? kLoadFollows : kSlipsAlone});
     }
     if (f_.cycles < thresholds::kFewestCycles) {
       caveats_.push_back({About::Cycles, ParameterStatus::Weak, fmt::format("only {} cycles", f_.cycles)});

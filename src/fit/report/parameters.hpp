@@ -153,7 +153,7 @@ struct EstimatedModel {
   Correlation correlation;
 };
 
-/// For everything that is computed from the fit. Needs all four of k, w_n, zeta and F_s above F_k.
+/// Returns the model for everything that is computed from the fit. It needs all four of k, w_n, zeta and F_s above F_k.
 std::optional<EstimatedModel> model_of(const Findings& findings, const SlidingModel& model);
 
 }  // namespace slipfit::fit

@@ -6,7 +6,7 @@
 
 namespace slipfit::fit {
 
-/// The damped fit, its sticks rising more steeply after a slip (level/reloading.hpp) where straight ones bend and the
+/// The damped fit, its sticks rising more steeply after a slip (level/level_model.hpp) where straight ones bend and the
 /// rise is known and explains it. Before `finish_fit`.
 std::optional<DampedFit> draft_with_rise(const FitInput& input, const AbortPredicate& should_abort = {});
 

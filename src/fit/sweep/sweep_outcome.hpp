@@ -49,8 +49,8 @@ struct OtherLaw {
   Coordinates move = Coordinates::Zero();
 };
 
-/// Of the hyperbolic and the logarithmic laws that the recordings do not exclude the one with the largest move. Empty
-/// where they exclude all.
+/// Returns the one with the largest move of the hyperbolic and the logarithmic laws that the recordings do not exclude.
+/// The result is empty where they exclude all.
 std::optional<OtherLaw> other_law(const SweepSolution& exponential, const StaticFriction& kind);
 
 /// A fit without one recording.
