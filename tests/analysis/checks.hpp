@@ -4,12 +4,11 @@
 #include <string>
 
 #include "slipfit/analysis.hpp"
+#include "support/holds.hpp"
 
 namespace slipfit {
 
-inline bool holds(const Estimate& estimate, double truth) {
-  return estimate.ci95 && estimate.ci95->low <= truth && truth <= estimate.ci95->high;
-}
+using test::holds;
 
 inline bool warns(const Analysis& analysis, const std::string& code) {
   return std::any_of(analysis.warnings.begin(), analysis.warnings.end(),

@@ -21,9 +21,9 @@ struct Run {
   std::size_t repeats = 1;
 };
 
-constexpr double kRate_Hz = 4000.0;
+constexpr double kBumpRate_Hz = 4000.0;
 constexpr double kBreakaway_N = 2.4;
-constexpr double kDrop_N = 0.6;
+constexpr double kBumpDrop_N = 0.6;
 
 /// 0.5 s of rest, a loading ramp, slips of half a cosine from 2.0 N, release to rest at 6 s with a free ring-down.
 Recording run_with_release(const Run& run) {
@@ -32,13 +32,13 @@ Recording run_with_release(const Run& run) {
   std::vector<double> time_s, force;
   double load = 0.0, slip_from = 0.0, since_slip_s = 1.0;
   bool first = true;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(7.0 * kRate_Hz); ++i) {
-    const double t = static_cast<double>(i) / kRate_Hz;
-    const double dt = 1.0 / kRate_Hz;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(7.0 * kBumpRate_Hz); ++i) {
+    const double t = static_cast<double>(i) / kBumpRate_Hz;
+    const double dt = 1.0 / kBumpRate_Hz;
     if (t > 0.5 && t < 6.0) {
       since_slip_s += dt;
       if (since_slip_s < run.slip_s) {
-        load = slip_from - 0.5 * kDrop_N * (1.0 - std::cos(std::numbers::pi * since_slip_s / run.slip_s));
+        load = slip_from - 0.5 * kBumpDrop_N * (1.0 - std::cos(std::numbers::pi * since_slip_s / run.slip_s));
       } else {
         load += run.stiffness_N_per_m * run.speed_m_per_s * dt;
       }
@@ -98,7 +98,7 @@ TEST_CASE("noise alone has no transients", "[transients]") {
   std::normal_distribution<double> noise(1.0, 0.01);
   std::vector<double> time_s, force;
   for (int i = 0; i < 20000; ++i) {
-    time_s.push_back(i / kRate_Hz);
+    time_s.push_back(i / kBumpRate_Hz);
     force.push_back(noise(random));
   }
   Conditions conditions;
@@ -159,7 +159,7 @@ TEST_CASE("a sum of sines with noise is no stick-slip", "[classify]") {
   std::normal_distribution<double> noise(0.0, 1.0);
   std::vector<double> time_s, force;
   for (int i = 0; i < 8000; ++i) {
-    const double t = i / kRate_Hz;
+    const double t = i / kBumpRate_Hz;
     const double phase = 2.0 * std::numbers::pi * 21.0 * t;
     time_s.push_back(t);
     force.push_back(5.0 + std::sin(phase) + second * std::sin(2.0 * phase) + noise_N * noise(random));

@@ -55,7 +55,7 @@ TEST_CASE("a batch writes one document and one summary row a recording, in the m
 TEST_CASE("a line of results.jsonl is the document of slipfit fit, on one line") {
   const BatchScene scene(1);
   REQUIRE(batch(scene.manifest(), scene.path("out"), {"--tier", "undamped"}).exit_code == 0);
-  const auto fit = test::slipfit({"fit", scene.path("r0.csv"), "--speed", "0.02", "--tier", "undamped", "--json"});
+  const auto fit = test::run_slipfit({"fit", scene.path("r0.csv"), "--speed", "0.02", "--tier", "undamped", "--json"});
   const auto expected = nlohmann::ordered_json::parse(fit.out);
   CHECK(without_groups(files_in(scene.path("out")).results) == expected.dump() + "\n");
 }

@@ -33,7 +33,7 @@ BatchScene::BatchScene(std::size_t recordings) {
 ProgramResult batch(const std::string& manifest, const std::string& out, const std::vector<std::string>& more) {
   std::vector<std::string> arguments{"batch", manifest, "--out", out};
   arguments.insert(arguments.end(), more.begin(), more.end());
-  return slipfit(arguments);
+  return run_slipfit(arguments);
 }
 
 BatchFiles files_in(const std::string& folder) {

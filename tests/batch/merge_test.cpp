@@ -28,7 +28,7 @@ std::vector<std::string> run_shards(const BatchScene& scene, std::size_t count) 
 test::ProgramResult merge(std::vector<std::string> folders, const std::string& out) {
   folders.insert(folders.begin(), "merge");
   folders.insert(folders.end(), {"--out", out});
-  return test::slipfit(folders);
+  return test::run_slipfit(folders);
 }
 
 }  // namespace

@@ -87,9 +87,8 @@ TEST_CASE("shards may share a report's folder, and after the merge the index is 
   CHECK_FALSE(fs::exists(scene.path("pages/index.html")));
   const fs::path first = scene.path("pages/recordings/00001-r0.html");
   const auto written = fs::last_write_time(first);
-  REQUIRE(
-      test::slipfit({"merge", scene.path("shard1"), scene.path("shard2"), "--out", scene.path("merged")}).exit_code ==
-      0);
+  REQUIRE(test::run_slipfit({"merge", scene.path("shard1"), scene.path("shard2"), "--out", scene.path("merged")})
+              .exit_code == 0);
   REQUIRE(batch(scene.manifest(), scene.path("merged"), reported(scene, "pages", {"--resume"})).exit_code == 0);
   CHECK(pages_in(scene.path("pages")) == pages_in(scene.path("whole")));
   CHECK(fs::last_write_time(first) == written);

@@ -4,14 +4,14 @@
 #include "recordings.hpp"
 #include "run_program.hpp"
 
-using test::slipfit;
+using test::run_slipfit;
 
 namespace {
 
 /// Unreadable, or nothing usable in it: exit code 3, nothing on standard output, one line that names the file.
 void check_unreadable(const std::string& file) {
   for (const std::string command : {"analyze", "fit"}) {
-    const test::ProgramResult result = slipfit({command, file, "--speed", "10mm/s", "--json"});
+    const test::ProgramResult result = run_slipfit({command, file, "--speed", "10mm/s", "--json"});
     CAPTURE(command, file, result.err);
     CHECK(result.exit_code == 3);
     CHECK(result.out.empty());
@@ -23,7 +23,7 @@ void check_unreadable(const std::string& file) {
 
 /// Readable: exit code 0 and a status that does not claim stick-slip.
 nlohmann::json check_answered(const std::string& file) {
-  const test::ProgramResult result = slipfit({"fit", file, "--speed", "10mm/s", "--json", "--quiet"});
+  const test::ProgramResult result = run_slipfit({"fit", file, "--speed", "10mm/s", "--json", "--quiet"});
   CAPTURE(file, result.err, result.out);
   REQUIRE(result.exit_code == 0);
   CHECK(result.err.empty());
@@ -55,7 +55,7 @@ TEST_CASE("recordings that cannot be read: exit code 3, one line") {
 
 TEST_CASE("a name that contains a line break stays on one line") {
   const test::TemporaryFolder folder;
-  const test::ProgramResult result = slipfit({"fit", folder.path("a\nslipfit: all is well\n.csv"), "--speed", "1"});
+  const test::ProgramResult result = run_slipfit({"fit", folder.path("a\nslipfit: all is well\n.csv"), "--speed", "1"});
   CHECK(result.exit_code == 3);
   CHECK(test::lines_in(result.err) == 1);
 }
@@ -63,7 +63,7 @@ TEST_CASE("a name that contains a line break stays on one line") {
 TEST_CASE("a column that is not there is an error that names it") {
   const test::TemporaryFolder folder;
   const std::string file = folder.file("run.csv", test::simulated_csv("1"));
-  const test::ProgramResult result = slipfit({"fit", file, "--speed", "20mm/s", "--force-column", "Fz"});
+  const test::ProgramResult result = run_slipfit({"fit", file, "--speed", "20mm/s", "--force-column", "Fz"});
   CHECK(result.exit_code == 3);
   CHECK(test::lines_in(result.err) == 1);
   CHECK_THAT(result.err, Catch::Contains("Fz"));

@@ -5,7 +5,7 @@
 #include "run_program.hpp"
 
 using test::check_refused;
-using test::slipfit;
+using test::run_slipfit;
 
 TEST_CASE("wrong usage is refused with exit code 2 and one line before the recording is opened") {
   const std::string file = "no-such-recording.csv";
@@ -22,10 +22,10 @@ TEST_CASE("wrong usage is refused with exit code 2 and one line before the recor
 TEST_CASE("a file in place of a command is fitted, and symbols name parameters") {
   const test::TemporaryFolder folder;
   const std::string file = folder.file("run.csv", test::simulated_csv("5"));
-  const test::ProgramResult fitted = slipfit({file, "--speed", "10mm/s", "--fix", "zeta=0.05", "--json"});
+  const test::ProgramResult fitted = run_slipfit({file, "--speed", "10mm/s", "--fix", "zeta=0.05", "--json"});
   CHECK(fitted.exit_code == 0);
   CHECK_THAT(fitted.out, Catch::Contains("\"damping_ratio\": 0.05"));
-  CHECK(fitted.out == slipfit({"fit", file, "--speed", "10mm/s", "--fix", "damping_ratio=0.05", "--json"}).out);
+  CHECK(fitted.out == run_slipfit({"fit", file, "--speed", "10mm/s", "--fix", "damping_ratio=0.05", "--json"}).out);
 }
 
 TEST_CASE("a speed that cannot be a driving speed is refused") {

@@ -10,15 +10,15 @@
 
 using nlohmann::json;
 using test::check_refused;
+using test::run_slipfit;
 using test::simulated_csv;
-using test::slipfit;
 
 namespace {
 
 json compared(std::vector<std::string> arguments) {
   arguments.insert(arguments.begin(), "compare");
   arguments.insert(arguments.end(), {"--json", "--quiet"});
-  const test::ProgramResult result = slipfit(arguments);
+  const test::ProgramResult result = run_slipfit(arguments);
   CAPTURE(arguments, result.err);
   REQUIRE(result.exit_code == 0);
   CHECK(result.err.empty());
@@ -46,7 +46,7 @@ TEST_CASE("compare takes recordings, several of them, fit documents, manifests a
   std::vector<std::string> fits;
   for (const std::string& run : {runs[0], runs[1]}) {
     fits.push_back(run + ".json");
-    REQUIRE(slipfit({"fit", run, "--speed", "20mm/s", "--json", "--quiet", "--out", fits.back()}).exit_code == 0);
+    REQUIRE(run_slipfit({"fit", run, "--speed", "20mm/s", "--json", "--quiet", "--out", fits.back()}).exit_code == 0);
   }
   CHECK(compared({fits[0], fits[1]})["quantities"] == single["quantities"]);
 
@@ -56,7 +56,7 @@ TEST_CASE("compare takes recordings, several of them, fit documents, manifests a
   CHECK(compared({list, "--group", "dry", "--group", "wet"})["quantities"] == several["quantities"]);
 
   const std::string results = folder.path("results");
-  REQUIRE(slipfit({"batch", list, "--out", results, "--joint-groups", "--quiet"}).exit_code == 0);
+  REQUIRE(run_slipfit({"batch", list, "--out", results, "--joint-groups", "--quiet"}).exit_code == 0);
   const json of_batch = compared({results, "--group", "dry", "--group", "wet"});
   CHECK(of_batch["quantities"] == several["quantities"]);
   CHECK(of_batch["a"]["name"] == "dry");
@@ -68,7 +68,7 @@ TEST_CASE("compare writes text and a page with the cycles of both sides") {
   const std::string a = folder.file("a_20mmps.csv", simulated_csv("1"));
   const std::string b = folder.file("b_20mmps.csv", simulated_csv("2"));
   const std::string page = folder.path("page.html");
-  const test::ProgramResult result = slipfit({"compare", a, b, "--report", page});  // speeds by the files' names
+  const test::ProgramResult result = run_slipfit({"compare", a, b, "--report", page});  // speeds by the files' names
   CHECK(result.exit_code == 0);
   CHECK_THAT(result.out, Catch::Contains("A: a_20mmps (one recording, stick-slip, 20 mm/s)") &&
                              Catch::Contains("tangential stiffness k [N/m]") && Catch::Contains("scatter_unknown"));
@@ -87,7 +87,7 @@ TEST_CASE("compare refuses what it cannot do, in one line") {
   check_refused({"compare", run, run, "--speed", "20mm/s", "--out", run}, "is the recording itself");
   check_refused({"compare", folder.file("bad.json", "{\"schema\": 1}"), run, "--speed", "20mm/s"},
                 "schema is 1, expected a text");
-  const test::ProgramResult missing = slipfit({"compare", run, folder.path("none.csv"), "--speed", "20mm/s"});
+  const test::ProgramResult missing = run_slipfit({"compare", run, folder.path("none.csv"), "--speed", "20mm/s"});
   CHECK(missing.exit_code == 3);
   CHECK_THAT(missing.err, Catch::Contains("none.csv"));
   CHECK(test::lines_in(missing.err) == 1);

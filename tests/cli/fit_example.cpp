@@ -7,7 +7,7 @@ namespace test {
 FitExample::FitExample(const std::vector<std::string>& options) {
   std::vector<std::string> arguments{"fit", recording, "--speed", "20mm/s", "--json", "--out", fit, "--quiet"};
   arguments.insert(arguments.end(), options.begin(), options.end());
-  const ProgramResult result = slipfit(arguments);
+  const ProgramResult result = run_slipfit(arguments);
   CAPTURE(result.err);
   REQUIRE(result.exit_code == 0);
 }

@@ -22,7 +22,7 @@ std::string recording_with(const std::string& force_name) {
 
 /// Runs slipfit and returns all that it wrote.
 std::string written(const std::vector<std::string>& arguments, int exit_code) {
-  const test::ProgramResult result = test::slipfit(arguments);
+  const test::ProgramResult result = test::run_slipfit(arguments);
   CAPTURE(arguments, result.err);
   CHECK(result.exit_code == exit_code);
   return result.out + result.err;
@@ -69,7 +69,7 @@ TEST_CASE("a page of a file whose name is not UTF-8 is UTF-8 without format char
   const test::TemporaryFolder folder;
   const std::string recording = folder.file(kName, test::simulated_csv("7"));
   const std::string page = folder.path("page.html");
-  REQUIRE(test::slipfit({"fit", recording, "--speed", "20mm/s", "--report", page}).exit_code == 0);
+  REQUIRE(test::run_slipfit({"fit", recording, "--speed", "20mm/s", "--report", page}).exit_code == 0);
   const std::string html = test::content_of(page);
   CHECK_THAT(html, Catch::Contains("\\u202e\\u2028\\u200b\\xff.csv"));
   CHECK(html.find('\xff') == std::string::npos);

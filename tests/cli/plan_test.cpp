@@ -10,14 +10,14 @@
 
 using nlohmann::json;
 using test::check_refused;
-using test::slipfit;
+using test::run_slipfit;
 
 namespace {
 
 json planned(const std::vector<std::string>& options) {
   std::vector<std::string> arguments{"plan", "--json"};
   arguments.insert(arguments.end(), options.begin(), options.end());
-  const test::ProgramResult result = slipfit(arguments);
+  const test::ProgramResult result = run_slipfit(arguments);
   CAPTURE(arguments, result.err);
   REQUIRE(result.exit_code == 0);
   return json::parse(result.out);
@@ -42,7 +42,7 @@ TEST_CASE("plan starts from the worst known parameter and names what limits each
   REQUIRE(plan["options"].size() >= 3);
   CHECK(plan["options"][0]["se"].get<double>() < plan["target"]["se"].get<double>());
   CHECK(plan["halving_s"].get<double>() > 0.0);
-  const test::ProgramResult text = slipfit({"plan", example.fit, "--for", "stiffness_N_per_m"});
+  const test::ProgramResult text = run_slipfit({"plan", example.fit, "--for", "stiffness_N_per_m"});
   CHECK(text.exit_code == 0);
   for (const char* const part : {"To improve stiffness_N_per_m", "Coulomb friction", "best first", "Limits of each"}) {
     CHECK_THAT(text.out, Catch::Contains(part));
@@ -57,7 +57,7 @@ TEST_CASE("plan reads joint fits, and narrows a predicted spacing") {
   CHECK(plan["target"]["speed_m_per_s"] == 0.1);
   CHECK(plan["options"].size() >= 3);
   const std::string file = example.folder.path("plan.txt");
-  CHECK(slipfit({"plan", example.out, "--at", "0.1", "--out", file, "--quiet"}).out.empty());
+  CHECK(run_slipfit({"plan", example.out, "--at", "0.1", "--out", file, "--quiet"}).out.empty());
   CHECK_THAT(test::content_of(file), Catch::Contains("periodic_displacement_m at 100"));
 }
 

@@ -7,7 +7,7 @@
 #include "run_program.hpp"
 
 using nlohmann::json;
-using test::slipfit;
+using test::run_slipfit;
 
 TEST_CASE("a fit document that does not determine the motion is refused with the reason") {
   const test::FitExample example;
@@ -33,8 +33,8 @@ TEST_CASE("a fit document that does not determine the motion is refused with the
   refused([](json& d) { d["parameters"].erase("damping_ratio"); }, "damping_ratio is absent");
   refused([](json& d) { d.erase("parameters"); }, "no parameters");
   refused([](json& d) { d["model"]["tier"] = "velocity"; }, "friction_slope_N_s_per_m");
-  const std::string analysed =
-      example.folder.file("analysed.json", slipfit({"analyze", example.recording, "--speed", "20mm/s", "--json"}).out);
+  const std::string analysed = example.folder.file(
+      "analysed.json", run_slipfit({"analyze", example.recording, "--speed", "20mm/s", "--json"}).out);
   test::check_refused({"predict", analysed, "--speeds", "0.1"}, "no parameters");
 }
 
@@ -147,7 +147,7 @@ TEST_CASE("a plan of more samples than any recording has is refused, one of very
                       "recording.sample_rate_Hz is 1000000000000.0, expected at most 1e+09 samples");
   const double duration_s = document["recording"]["duration_s"];
   document["recording"]["sample_rate_Hz"] = 0.9e9 / duration_s;
-  CHECK(slipfit({"plan", example.folder.file("changed.json", document.dump())}).exit_code == 0);
+  CHECK(run_slipfit({"plan", example.folder.file("changed.json", document.dump())}).exit_code == 0);
 }
 
 TEST_CASE("standard errors that leave a parameter open by a factor of e^20 are refused by predictions") {

@@ -7,7 +7,7 @@
 #include "run_program.hpp"
 
 using nlohmann::json;
-using test::slipfit;
+using test::run_slipfit;
 
 namespace {
 
@@ -19,7 +19,7 @@ json predicted(const std::vector<std::string>& source, const std::string& speeds
   std::vector<std::string> arguments{"predict"};
   arguments.insert(arguments.end(), source.begin(), source.end());
   arguments.insert(arguments.end(), {"--speeds", speeds, "--json"});
-  const test::ProgramResult result = slipfit(arguments);
+  const test::ProgramResult result = run_slipfit(arguments);
   CAPTURE(arguments, result.err);
   REQUIRE(result.exit_code == 0);
   CHECK(result.err.empty());
@@ -57,9 +57,9 @@ TEST_CASE("predict at the recording's own speed gives what the fit derived: valu
 TEST_CASE("the round trip keeps the intervals also if the damping is at its bound or fixed") {
   const test::TemporaryFolder folder;
   const std::string run =
-      folder.file("run.csv", slipfit({"simulate", "--stiffness", "1000", "--natural-frequency", "200",
-                                      "--static-friction", "6", "--kinetic-friction", "4", "--speed", "20mm/s",
-                                      "--duration", "3", "--sample-rate", "1kHz", "--noise", "0.02", "--seed", "3"})
+      folder.file("run.csv", run_slipfit({"simulate", "--stiffness", "1000", "--natural-frequency", "200",
+                                          "--static-friction", "6", "--kinetic-friction", "4", "--speed", "20mm/s",
+                                          "--duration", "3", "--sample-rate", "1kHz", "--noise", "0.02", "--seed", "3"})
                                  .out);
   for (const std::vector<std::string>& options : {std::vector<std::string>{},
                                                   {"--tier", "undamped"},
@@ -67,7 +67,7 @@ TEST_CASE("the round trip keeps the intervals also if the damping is at its boun
                                                   {"--fix", "damping_ratio=0"}}) {
     std::vector<std::string> arguments{"fit", run, "--speed", "20mm/s", "--json", "--out", folder.path("fit.json")};
     arguments.insert(arguments.end(), options.begin(), options.end());
-    REQUIRE(slipfit(arguments).exit_code == 0);
+    REQUIRE(run_slipfit(arguments).exit_code == 0);
     CAPTURE(options);
     const json derived = json::parse(test::content_of(folder.path("fit.json")))["derived"];
     const json prediction = predicted({folder.path("fit.json")}, "0.02");
@@ -121,25 +121,25 @@ TEST_CASE("near the critical speed the row states that the data do not determine
   CHECK(row["period_s"]["ci95"].is_array());
   CHECK(row["force_peak_N"]["ci95"].is_null());
   CHECK(row["lambda"]["ci95"].is_array());
-  const test::ProgramResult text = slipfit({"predict", example.fit, "--speeds", "20mm/s,0.42"});
+  const test::ProgramResult text = run_slipfit({"predict", example.fit, "--speeds", "20mm/s,0.42"});
   CHECK_THAT(text.out, Catch::Contains("the data do not determine"));
 }
 
 TEST_CASE("the table for people has prefixes and bands, and --out and --csv write the same numbers") {
   const test::FitExample example;
   const std::vector<std::string> arguments{"predict", example.fit, "--speeds", "10mm/s:40mm/s:3"};
-  const test::ProgramResult text = slipfit(arguments);
+  const test::ProgramResult text = run_slipfit(arguments);
   CHECK(text.exit_code == 0);
   for (const char* const part :
        {"critical speed: 4", "[mm/s]", "[Hz]", "[mm]", "bistable:", "95 % interval", "Coulomb friction"}) {
     CHECK_THAT(text.out, Catch::Contains(part));
   }
-  CHECK(test::widest_line(slipfit({"predict", example.fit, "--speeds", "1um/s:1m/s:13"}).out) <= 100);
+  CHECK(test::widest_line(run_slipfit({"predict", example.fit, "--speeds", "1um/s:1m/s:13"}).out) <= 100);
   const std::string out = example.folder.path("prediction.json");
   const std::string csv = example.folder.path("prediction.csv");
   std::vector<std::string> writing = arguments;
   writing.insert(writing.end(), {"--json", "--out", out, "--csv", csv});
-  const test::ProgramResult written = slipfit(writing);
+  const test::ProgramResult written = run_slipfit(writing);
   CHECK(written.exit_code == 0);
   CHECK(written.out.empty());
   CHECK(test::lines_in(written.err) == 2);
@@ -171,12 +171,12 @@ TEST_CASE("a fit document without correlation, or without F_k, leaves intervals 
 TEST_CASE("hostile names of fit documents neither break the JSON nor forge lines") {
   const test::FitExample example;
   const std::string odd = example.folder.file("\xff\xfe\"\\\n odd.json", test::content_of(example.fit));
-  const test::ProgramResult document = slipfit({"predict", odd, "--speeds", "0.1", "--json"});
+  const test::ProgramResult document = run_slipfit({"predict", odd, "--speeds", "0.1", "--json"});
   CHECK(document.exit_code == 0);
   CHECK(json::accept(document.out));
-  const test::ProgramResult text = slipfit({"predict", odd, "--speeds", "0.1"});
+  const test::ProgramResult text = run_slipfit({"predict", odd, "--speeds", "0.1"});
   CHECK(text.exit_code == 0);
-  CHECK(test::lines_in(text.out) == test::lines_in(slipfit({"predict", example.fit, "--speeds", "0.1"}).out));
+  CHECK(test::lines_in(text.out) == test::lines_in(run_slipfit({"predict", example.fit, "--speeds", "0.1"}).out));
   test::check_refused({"predict", example.folder.file("bad\nslipfit: ok.json", "{"), "--speeds", "0.1"},
                       "not one JSON");
 }

@@ -5,7 +5,7 @@
 #include "support/velocity_motion.hpp"
 
 TEST_CASE("predict from stated friction that depends on the speed gives the exact cycle") {
-  const test::ProgramResult result = test::slipfit(
+  const test::ProgramResult result = test::run_slipfit(
       {"predict", "--stiffness", "900", "--natural-frequency", "150", "--damping-ratio", "0.06", "--static-friction",
        "3", "--f0", "1.6", "--f1", "0.4", "--alpha=-8", "--speeds", "10mm/s,40mm/s", "--json"});
   CAPTURE(result.err);

@@ -54,7 +54,7 @@ TEST_CASE("a joint fit shows its steps on a terminal alone, and takes them off i
   CHECK_THAT(shown, Catch::Contains("analysing recording 3 of 3") && Catch::Contains("fitting 3 recordings together") &&
                         Catch::Contains("fitting without recording 3 of 3") && Catch::EndsWith("\r\x1b[K"));
   CHECK(nlohmann::json::parse(test::content_of(out))["id"] == "pad");
-  CHECK(test::slipfit(command).err.empty());
+  CHECK(test::run_slipfit(command).err.empty());
   std::vector<std::string> quiet = command;
   quiet.push_back("--quiet");
   CHECK(shown_on_terminal(quiet, out).empty());
@@ -67,7 +67,7 @@ TEST_CASE("a joint fit of strokes or segments shows its steps as other joint fit
   CHECK_THAT(shown_on_terminal(command, folder.path("out.json")),
              Catch::Contains("analysing recording 3 of 3") && Catch::Contains("fitting 3 recordings together") &&
                  Catch::EndsWith("\r\x1b[K"));
-  CHECK(test::slipfit(command).err.empty());
+  CHECK(test::run_slipfit(command).err.empty());
 }
 
 TEST_CASE("compare shows which recording it fits on a terminal alone") {
@@ -76,5 +76,5 @@ TEST_CASE("compare shows which recording it fits on a terminal alone") {
   const std::string fast = example.folder.path("fast.csv");
   const std::vector<std::string> command{"compare", slow, fast, "--speed", "20mm/s", "--speed", "80mm/s"};
   CHECK_THAT(shown_on_terminal(command, example.folder.path("out.txt")), Catch::Contains("fitting recording 2 of 2"));
-  CHECK(test::slipfit(command).err.empty());
+  CHECK(test::run_slipfit(command).err.empty());
 }

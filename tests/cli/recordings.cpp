@@ -38,18 +38,18 @@ std::string segments_csv() {
 }
 
 std::string simulated_csv(const std::string& seed) {
-  return slipfit({"simulate", "--stiffness",
-                  "1000",     "--natural-frequency",
-                  "200",      "--damping-ratio",
-                  "0.05",     "--static-friction",
-                  "6",        "--kinetic-friction",
-                  "4",        "--speed",
-                  "20mm/s",   "--duration",
-                  "4",        "--sample-rate",
-                  "1kHz",     "--noise",
-                  "0.02",     "--jitter",
-                  "0.05",     "--seed",
-                  seed})
+  return run_slipfit({"simulate", "--stiffness",
+                      "1000",     "--natural-frequency",
+                      "200",      "--damping-ratio",
+                      "0.05",     "--static-friction",
+                      "6",        "--kinetic-friction",
+                      "4",        "--speed",
+                      "20mm/s",   "--duration",
+                      "4",        "--sample-rate",
+                      "1kHz",     "--noise",
+                      "0.02",     "--jitter",
+                      "0.05",     "--seed",
+                      seed})
       .out;
 }
 

@@ -10,7 +10,7 @@ namespace test {
 
 /// Wrong usage: exit code 2, nothing on standard output, one line on standard error that holds `part`.
 inline void check_refused(const std::vector<std::string>& arguments, const std::string& part) {
-  const ProgramResult result = slipfit(arguments);
+  const ProgramResult result = run_slipfit(arguments);
   CAPTURE(arguments, result.err);
   CHECK(result.exit_code == 2);
   CHECK(result.out.empty());

@@ -4,11 +4,11 @@
 #include "run_program.hpp"
 
 using Catch::Contains;
-using test::slipfit;
+using test::run_slipfit;
 
 namespace {
 
-struct Example {
+struct RunWithPage {
   test::TemporaryFolder folder;
   std::string recording = folder.file("run.csv", test::simulated_csv("7"));
   std::string page = folder.path("run.html");
@@ -17,22 +17,22 @@ struct Example {
 }  // namespace
 
 TEST_CASE("fit --report writes one page in addition to the usual output, the same bytes every time") {
-  const Example example;
+  const RunWithPage example;
   const std::vector<std::string> arguments{"fit", example.recording, "--speed", "20mm/s", "--report", example.page};
-  const test::ProgramResult first = slipfit(arguments);
+  const test::ProgramResult first = run_slipfit(arguments);
   REQUIRE(first.exit_code == 0);
   CHECK_THAT(first.out, Contains("stick-slip"));
   CHECK_THAT(first.err, Contains("wrote '" + example.page + "'"));
   const std::string page = test::content_of(example.page);
   CHECK_THAT(page, Contains("<p class=\"headline\">Stick-slip at ") && Contains("--speed 20mm/s --report"));
-  REQUIRE(slipfit(arguments).exit_code == 0);
+  REQUIRE(run_slipfit(arguments).exit_code == 0);
   CHECK(test::content_of(example.page) == page);
 }
 
 TEST_CASE("fit --plots writes the charts as SVG into a folder that it makes") {
-  const Example example;
+  const RunWithPage example;
   const std::string plots = example.folder.path("plots");
-  REQUIRE(slipfit({"fit", example.recording, "--speed", "20mm/s", "--plots", plots, "--quiet"}).exit_code == 0);
+  REQUIRE(run_slipfit({"fit", example.recording, "--speed", "20mm/s", "--plots", plots, "--quiet"}).exit_code == 0);
   for (const char* name : {"trace", "spectrum", "cycles", "evolution", "pairs", "map", "speed", "pattern"}) {
     CAPTURE(name);
     const std::string picture = test::content_of(plots + "/" + name + ".svg");
@@ -42,19 +42,19 @@ TEST_CASE("fit --plots writes the charts as SVG into a folder that it makes") {
 }
 
 TEST_CASE("analyze has a report too, without a fit") {
-  const Example example;
-  REQUIRE(slipfit({"analyze", example.recording, "--speed", "20mm/s", "--report", example.page}).exit_code == 0);
+  const RunWithPage example;
+  REQUIRE(run_slipfit({"analyze", example.recording, "--speed", "20mm/s", "--report", example.page}).exit_code == 0);
   CHECK_THAT(test::content_of(example.page), Contains("the model was not fitted"));
 }
 
 TEST_CASE("a report over the recording, or into a file for a folder, is refused before any work") {
-  const Example example;
+  const RunWithPage example;
   const std::string page = example.folder.file("recording.html", test::content_of(example.recording));
-  const test::ProgramResult itself = slipfit({"fit", page, "--speed", "20mm/s", "--report", page});
+  const test::ProgramResult itself = run_slipfit({"fit", page, "--speed", "20mm/s", "--report", page});
   CHECK(itself.exit_code == 2);
   CHECK_THAT(itself.err, Contains("--report") && Contains("is the recording itself"));
   const test::ProgramResult file =
-      slipfit({"fit", example.recording, "--speed", "20mm/s", "--plots", example.recording});
+      run_slipfit({"fit", example.recording, "--speed", "20mm/s", "--plots", example.recording});
   CHECK(file.exit_code == 2);
   CHECK_THAT(file.err, Contains("--plots") && Contains("expected a folder"));
 }

@@ -7,17 +7,17 @@
 #include "recordings.hpp"
 #include "run_program.hpp"
 
-using test::slipfit;
+using test::run_slipfit;
 
 namespace {
 
-struct Example {
+struct SimulatedRun {
   test::TemporaryFolder folder;
   std::string file = folder.file("run.csv", test::simulated_csv("7"));
 };
 
 nlohmann::json fit_json(const std::vector<std::string>& arguments) {
-  const test::ProgramResult result = slipfit(arguments);
+  const test::ProgramResult result = run_slipfit(arguments);
   CAPTURE(arguments, result.err);
   REQUIRE(result.exit_code == 0);
   return nlohmann::json::parse(result.out);
@@ -30,7 +30,7 @@ std::string first_line(const std::string& text) {
 }  // namespace
 
 TEST_CASE("analyze needs no speed, and gives nothing that depends on it without one") {
-  const Example example;
+  const SimulatedRun example;
   const nlohmann::json without = fit_json({"analyze", example.file, "--json"});
   const nlohmann::json with = fit_json({"analyze", example.file, "--speed", "20mm/s", "--json"});
   CHECK(without["status"] == "stick_slip");
@@ -43,7 +43,7 @@ TEST_CASE("analyze needs no speed, and gives nothing that depends on it without 
     CHECK(without["derived"][name]["value"].is_null());
     CHECK_THAT(without["derived"][name]["note"].get<std::string>(), Catch::Contains("--speed"));
   }
-  CHECK(slipfit({"fit", example.file}).exit_code == 2);
+  CHECK(run_slipfit({"fit", example.file}).exit_code == 2);
 }
 
 TEST_CASE("help and version go to standard output with exit code 0") {
@@ -52,29 +52,29 @@ TEST_CASE("help and version go to standard output with exit code 0") {
                                                     {"fit", "--help"},
                                                     {"analyze", "--help"},
                                                     {"simulate", "-h"}}) {
-    const test::ProgramResult result = slipfit(arguments);
+    const test::ProgramResult result = run_slipfit(arguments);
     CHECK(result.exit_code == 0);
     CHECK_FALSE(result.out.empty());
     CHECK(result.err.empty());
   }
-  CHECK_THAT(slipfit({"--version"}).out, Catch::Matches("slipfit [0-9]+\\.[0-9]+\\.[0-9]+\n"));
+  CHECK_THAT(run_slipfit({"--version"}).out, Catch::Matches("slipfit [0-9]+\\.[0-9]+\\.[0-9]+\n"));
 }
 
 TEST_CASE("with --json standard output is one document and nothing else, the same bytes every time") {
-  const Example example;
+  const SimulatedRun example;
   const std::vector<std::string> arguments{"fit", example.file, "--speed", "20mm/s", "--json"};
-  const test::ProgramResult first = slipfit(arguments);
+  const test::ProgramResult first = run_slipfit(arguments);
   REQUIRE(first.exit_code == 0);
   const auto document = nlohmann::json::parse(first.out);
   CHECK(document["schema"] == "slipfit.fit/1");
   CHECK(document["id"] == "run");
   CHECK(document["status"] == "stick_slip");
   CHECK_FALSE(document.contains("timing"));
-  CHECK(slipfit(arguments).out == first.out);
+  CHECK(run_slipfit(arguments).out == first.out);
 }
 
 TEST_CASE("analyze gives the same document without the fit") {
-  const Example example;
+  const SimulatedRun example;
   const auto document = fit_json({"analyze", example.file, "--speed", "20mm/s", "--json"});
   CHECK(document["schema"] == "slipfit.fit/1");
   for (const std::string key : {"model", "parameters", "correlation"}) CHECK_FALSE(document.contains(key));
@@ -83,7 +83,7 @@ TEST_CASE("analyze gives the same document without the fit") {
 }
 
 TEST_CASE("the units of the command line are converted") {
-  const Example example;
+  const SimulatedRun example;
   const auto speed = [&example](const std::vector<std::string>& words) {
     std::vector<std::string> arguments{"analyze", example.file, "--json"};
     arguments.insert(arguments.end(), words.begin(), words.end());
@@ -100,15 +100,15 @@ TEST_CASE("the units of the command line are converted") {
 }
 
 TEST_CASE("with --timing the document has the seconds of the stages") {
-  const Example example;
+  const SimulatedRun example;
   const auto timing = fit_json({"fit", example.file, "--speed", "20mm/s", "--json", "--timing"})["timing"];
   CHECK(timing["total_s"].get<double>() >= timing["read_s"].get<double>());
   CHECK(timing["read_s"].get<double>() > 0.0);
 }
 
 TEST_CASE("the report for people begins with the judgement and keeps measured and predicted spacing apart") {
-  const Example example;
-  const test::ProgramResult result = slipfit({"fit", example.file, "--speed", "20mm/s", "--details"});
+  const SimulatedRun example;
+  const test::ProgramResult result = run_slipfit({"fit", example.file, "--speed", "20mm/s", "--details"});
   REQUIRE(result.exit_code == 0);
   CHECK_THAT(first_line(result.out), Catch::Contains("stick-slip") && Catch::Contains("Hz"));
   const std::size_t measured = result.out.find("Spacing, measured (V/f)");
@@ -119,35 +119,35 @@ TEST_CASE("the report for people begins with the judgement and keeps measured an
 }
 
 TEST_CASE("the file of --out equals standard output, and its rename leaves no temporary file") {
-  const Example example;
+  const SimulatedRun example;
   const std::string out = example.folder.file("result.json", "old");
-  const test::ProgramResult shown = slipfit({"fit", example.file, "--speed", "20mm/s", "--json"});
-  const test::ProgramResult written = slipfit({"fit", example.file, "--speed", "20mm/s", "--json", "--out", out});
+  const test::ProgramResult shown = run_slipfit({"fit", example.file, "--speed", "20mm/s", "--json"});
+  const test::ProgramResult written = run_slipfit({"fit", example.file, "--speed", "20mm/s", "--json", "--out", out});
   CHECK(written.exit_code == 0);
   CHECK(written.out.empty());
   CHECK_THAT(written.err, Catch::Contains("wrote"));
   CHECK(test::content_of(out) == shown.out);
   CHECK(example.folder.names() == std::vector<std::string>{"result.json", "run.csv"});
-  CHECK(slipfit({"fit", example.file, "--speed", "20mm/s", "--quiet", "--out", out}).err.empty());
+  CHECK(run_slipfit({"fit", example.file, "--speed", "20mm/s", "--quiet", "--out", out}).err.empty());
 }
 
 TEST_CASE("option --out keeps a link a link and writes directly to special files") {
-  const Example example;
+  const SimulatedRun example;
   const std::string target = example.folder.file("target.json", "old");
   const std::string link = example.folder.path("link.json");
   std::filesystem::create_symlink(target, link);
-  CHECK(slipfit({"analyze", example.file, "--speed", "20mm/s", "--json", "--out", link}).exit_code == 0);
+  CHECK(run_slipfit({"analyze", example.file, "--speed", "20mm/s", "--json", "--out", link}).exit_code == 0);
   CHECK(std::filesystem::is_symlink(link));
   CHECK(test::content_of(target).rfind('{', 0) == 0);
-  CHECK(slipfit({"analyze", example.file, "--speed", "20mm/s", "--json", "--out", "/dev/null"}).exit_code == 0);
+  CHECK(run_slipfit({"analyze", example.file, "--speed", "20mm/s", "--json", "--out", "/dev/null"}).exit_code == 0);
   CHECK(std::filesystem::is_character_file("/dev/null"));
-  const test::ProgramResult full = slipfit({"analyze", example.file, "--speed", "20mm/s", "--out", "/dev/full"});
+  const test::ProgramResult full = run_slipfit({"analyze", example.file, "--speed", "20mm/s", "--out", "/dev/full"});
   CHECK(full.exit_code == 2);
   CHECK(test::lines_in(full.err) == 1);
 }
 
 TEST_CASE("files of --cycles and --curve are tables that agree with the document") {
-  const Example example;
+  const SimulatedRun example;
   const std::string cycles = example.folder.path("cycles.csv");
   const std::string curve = example.folder.path("curve.csv");
   const auto document =
@@ -178,7 +178,7 @@ TEST_CASE("simulate gives the same bytes for the same seed, and slipfit reads th
 }
 
 TEST_CASE("the parameters of a simulated recording come back through the executable") {
-  const Example example;
+  const SimulatedRun example;
   const auto parameters = fit_json({"fit", example.file, "--speed", "20mm/s", "--json"})["parameters"];
   const auto near = [&parameters](const std::string& name, double truth) {
     const double value = parameters[name]["value"].get<double>();
@@ -193,19 +193,19 @@ TEST_CASE("the parameters of a simulated recording come back through the executa
 }
 
 TEST_CASE("a fixed parameter is held and said to be fixed") {
-  const Example example;
+  const SimulatedRun example;
   const auto document = fit_json({"fit", "--fix", "damping_ratio=0.06", example.file, "--speed", "20mm/s", "--json"});
   CHECK(document["parameters"]["damping_ratio"]["value"] == 0.06);
   CHECK(document["parameters"]["damping_ratio"]["status"] == "fixed");
 }
 
 TEST_CASE("file names in any encoding are reported without an exception") {
-  const Example example;
+  const SimulatedRun example;
   const std::string odd = example.folder.file("\xff\xfe\"\\ odd.csv", test::content_of(example.file));
-  const test::ProgramResult json = slipfit({"analyze", odd, "--speed", "20mm/s", "--json"});
+  const test::ProgramResult json = run_slipfit({"analyze", odd, "--speed", "20mm/s", "--json"});
   CHECK(json.exit_code == 0);
   CHECK(nlohmann::json::accept(json.out));
-  CHECK(slipfit({"analyze", odd, "--speed", "20mm/s"}).exit_code == 0);
+  CHECK(run_slipfit({"analyze", odd, "--speed", "20mm/s"}).exit_code == 0);
 }
 
 TEST_CASE("intervals of the demonstration file include what it was made with, its trend read either way") {
@@ -242,5 +242,5 @@ TEST_CASE("intervals of the demonstration file include what it was made with, it
   CHECK(none["level_trend"]["reading"] == "none");
   CHECK(none["parameters"]["static_friction_N"]["se"] < document["parameters"]["static_friction_N"]["se"]);
   CHECK(none["warnings"].dump().find("although no trend is stated") != std::string::npos);
-  CHECK(slipfit({"fit", demo, "--speed", "10mm/s", "--drift", "up"}).exit_code == 2);
+  CHECK(run_slipfit({"fit", demo, "--speed", "10mm/s", "--drift", "up"}).exit_code == 2);
 }

@@ -39,7 +39,7 @@ ProgramResult run_program(const std::string& program, const std::vector<std::str
   return {exit_code, content_of(folder.path("out")), content_of(folder.path("err"))};
 }
 
-ProgramResult slipfit(const std::vector<std::string>& arguments) {
+ProgramResult run_slipfit(const std::vector<std::string>& arguments) {
   return run_program(SLIPFIT_EXECUTABLE, arguments);
 }
 

@@ -16,7 +16,7 @@ struct ProgramResult {
 ProgramResult run_program(const std::string& program, const std::vector<std::string>& arguments);
 
 /// Runs the slipfit executable of this build.
-ProgramResult slipfit(const std::vector<std::string>& arguments);
+ProgramResult run_slipfit(const std::vector<std::string>& arguments);
 
 /// A folder of its own, removed at the end of the test.
 class TemporaryFolder {

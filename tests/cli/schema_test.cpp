@@ -9,7 +9,7 @@
 #include "run_program.hpp"
 #include "sweep_example.hpp"
 
-using test::slipfit;
+using test::run_slipfit;
 
 namespace {
 
@@ -58,7 +58,7 @@ TEST_CASE("every kind of document obeys docs/fit.schema.json, with no key that t
     documents.push_back(folder.path(std::to_string(documents.size()) + ".json"));
     std::vector<std::string> arguments = start;
     arguments.insert(arguments.end(), {"--speed", "20mm/s", "--json", "--out", documents.back()});
-    const test::ProgramResult result = slipfit(arguments);
+    const test::ProgramResult result = run_slipfit(arguments);
     CAPTURE(arguments, result.err);
     REQUIRE(result.exit_code == 0);
   };
@@ -94,7 +94,7 @@ TEST_CASE("the document of info obeys docs/info.schema.json, also for a file tha
   for (const std::string& text : {steps, test::simulated_csv("5"), std::string("a,b,c\n1,2,x\n2,1,y\n1,3,z\n")}) {
     const std::string index = std::to_string(documents.size());
     documents.push_back(folder.path(index + ".json"));
-    const auto result = slipfit({"info", folder.file(index + ".csv", text), "--json", "--out", documents.back()});
+    const auto result = run_slipfit({"info", folder.file(index + ".csv", text), "--json", "--out", documents.back()});
     CAPTURE(result.err);
     REQUIRE(result.exit_code == 0);
   }
@@ -118,8 +118,8 @@ TEST_CASE("a comparison obeys docs/compare.schema.json") {
   std::vector<std::string> documents;
   for (const std::string& other : {run, steady}) {
     documents.push_back(folder.path(std::to_string(documents.size()) + ".json"));
-    REQUIRE(slipfit({"compare", run, other, "--speed", "20mm/s", "--normal-force", "5", "--json", "--out",
-                     documents.back()})
+    REQUIRE(run_slipfit({"compare", run, other, "--speed", "20mm/s", "--normal-force", "5", "--json", "--out",
+                         documents.back()})
                 .exit_code == 0);
   }
   const auto result = validate(documents, "compare");
@@ -156,7 +156,7 @@ TEST_CASE("docs/formats.md lists every warning that a recording full of defects 
   });
   csv += "4.5,nan\n4.6,12\n4.6,12.5\n4.55,12\n";
   const test::ProgramResult result =
-      slipfit({"fit", folder.file("defects.csv", csv), "--speed", "20mm/s", "--json", "--quiet"});
+      run_slipfit({"fit", folder.file("defects.csv", csv), "--speed", "20mm/s", "--json", "--quiet"});
   REQUIRE(result.exit_code == 0);
   const std::string formats = test::content_of((project_folder() / "docs/formats.md").string());
   const auto warnings = nlohmann::json::parse(result.out)["warnings"];
@@ -184,7 +184,8 @@ TEST_CASE("the document of surface obeys docs/surface.schema.json, with a patter
   for (const std::string& text : {ridges, rough}) {
     const std::string index = std::to_string(documents.size());
     documents.push_back(folder.path(index + ".json"));
-    const auto result = slipfit({"surface", folder.file(index + ".csv", text), "--json", "--out", documents.back()});
+    const auto result =
+        run_slipfit({"surface", folder.file(index + ".csv", text), "--json", "--out", documents.back()});
     CAPTURE(result.err);
     REQUIRE(result.exit_code == 0);
   }

@@ -13,11 +13,11 @@
 
 using nlohmann::json;
 using test::check_refused;
-using test::slipfit;
+using test::run_slipfit;
 
 TEST_CASE("a joint fit of a Coulomb sweep states its law in text, document and prediction") {
   const test::SweepExample example;
-  const test::ProgramResult text = slipfit({"fit", "--joint", example.manifest, "--group", "pad", "--details"});
+  const test::ProgramResult text = run_slipfit({"fit", "--joint", example.manifest, "--group", "pad", "--details"});
   CHECK(text.exit_code == 0);
   for (const char* const part :
        {"pad: 3 recordings fitted together", "tangential stiffness k", "identified", "slow", "fast",
@@ -43,7 +43,7 @@ TEST_CASE("a joint fit of a Coulomb sweep states its law in text, document and p
   CHECK(document["derived"]["lambda"]["value"].is_null());
   const json& critical = document["derived"]["critical_speed_m_per_s"];
   CHECK(critical["value"].get<double>() == Approx(0.4392).epsilon(0.05));  // 200 * 2 / (1000 * 0.910670)
-  const test::ProgramResult predicted = slipfit({"predict", example.out, "--speeds", "0.02,0.1", "--json"});
+  const test::ProgramResult predicted = run_slipfit({"predict", example.out, "--speeds", "0.02,0.1", "--json"});
   REQUIRE(predicted.exit_code == 0);
   CHECK(json::parse(predicted.out)["critical_speed_m_per_s"]["ci95"] == critical["ci95"]);
 }
@@ -55,17 +55,18 @@ TEST_CASE("predict carries the warnings of the fit, and takes a load where the r
   document["model"]["normal_force_N"] = 2.0;
   std::ofstream(example.out) << document.dump();
   const std::vector<std::string> predict{"predict", example.out, "--speeds", "0.02"};
-  CHECK_THAT(slipfit(predict).out, Catch::Contains("they do not agree [recordings_disagree]"));
-  const json same = json::parse(slipfit({predict[0], predict[1], predict[2], predict[3], "--json"}).out);
+  CHECK_THAT(run_slipfit(predict).out, Catch::Contains("they do not agree [recordings_disagree]"));
+  const json same = json::parse(run_slipfit({predict[0], predict[1], predict[2], predict[3], "--json"}).out);
   CHECK(same["warnings"].back()["code"] == "recordings_disagree");
   const json twice =
-      json::parse(slipfit({predict[0], predict[1], predict[2], predict[3], "--json", "--normal-force", "4N"}).out);
+      json::parse(run_slipfit({predict[0], predict[1], predict[2], predict[3], "--json", "--normal-force", "4N"}).out);
   CHECK(twice["rows"][0]["lambda"]["value"].get<double>() ==
         Approx(2.0 * same["rows"][0]["lambda"]["value"].get<double>()));
   CHECK(twice["rows"][0]["force_peak_N"]["value"].is_null());
   document["model"].erase("normal_force_N");
   std::ofstream(example.out) << document.dump();
-  const test::ProgramResult refused = slipfit({predict[0], predict[1], predict[2], predict[3], "--normal-force", "4N"});
+  const test::ProgramResult refused =
+      run_slipfit({predict[0], predict[1], predict[2], predict[3], "--normal-force", "4N"});
   CHECK(refused.exit_code == 2);
   CHECK_THAT(refused.err, Catch::Contains("state no normal force"));
 }
@@ -77,19 +78,19 @@ TEST_CASE("a velocity fit hands slope and alpha on to predict") {
   CHECK(document["correlation"]["names"].size() == 6);
   CHECK(document["correlation"]["names"][4] == "friction_slope_N_s_per_m");
   CHECK(document["correlation"]["values"][5].is_number());
-  const test::ProgramResult same = slipfit({"predict", example.out, "--speeds", "0.02", "--json"});
+  const test::ProgramResult same = run_slipfit({"predict", example.out, "--speeds", "0.02", "--json"});
   REQUIRE(same.exit_code == 0);
   const json row = json::parse(same.out)["rows"][0];
   const json& spacing = document["recordings"][0]["joint"]["spacing_m"];
   CHECK(row["periodic_displacement_m"]["value"].get<double>() == Approx(spacing["value"].get<double>()).epsilon(1e-9));
   // Coulomb friction gives no alpha: at this speed exp(alpha V) may be anything, where the speed is low it is 1.
   CHECK_THAT(row["note"].get<std::string>(), Catch::Contains("alpha is not known"));
-  const test::ProgramResult slow = slipfit({"predict", example.out, "--speeds", "0.0001", "--json"});
+  const test::ProgramResult slow = run_slipfit({"predict", example.out, "--speeds", "0.0001", "--json"});
   CHECK(json::parse(slow.out)["rows"][0]["periodic_displacement_m"]["ci95"].is_array());
 
   document["correlation"]["values"][4] = document["correlation"]["values"][4].get<double>() + 2.0;
   const std::string steeper = example.folder.file("steeper.json", document.dump());
-  const test::ProgramResult other = slipfit({"predict", steeper, "--speeds", "0.02", "--json"});
+  const test::ProgramResult other = run_slipfit({"predict", steeper, "--speeds", "0.02", "--json"});
   CHECK(json::parse(other.out)["rows"][0]["periodic_displacement_m"]["value"] !=
         row["periodic_displacement_m"]["value"]);
 
@@ -122,7 +123,7 @@ TEST_CASE("a sweep's unreadable recording is refused in the words of the manifes
   const test::TemporaryFolder folder;
   static_cast<void>(folder.file("two.csv", "time,left force,right force\n0,1,2\n1,2,1\n2,1,2\n3,2,1\n"));
   const std::string manifest = folder.file("sweep.csv", "id,file,speed_m_per_s\nrun,two.csv,0.01\n");
-  const test::ProgramResult result = slipfit({"fit", "--joint", manifest});
+  const test::ProgramResult result = run_slipfit({"fit", "--joint", manifest});
   CAPTURE(result.err);
   CHECK(result.exit_code == 3);
   CHECK_THAT(result.err, Catch::Contains("the manifest's force_column") && !Catch::Contains("--force-column"));
@@ -141,10 +142,10 @@ TEST_CASE("one recording is not a sweep: the answer states that nothing was fitt
 
 TEST_CASE("a joint fit gives the same bytes in every run, at any memory address") {
   const test::SweepExample example;
-  const test::ProgramResult first = slipfit({"fit", "--joint", example.manifest, "--group", "pad", "--json"});
+  const test::ProgramResult first = run_slipfit({"fit", "--joint", example.manifest, "--group", "pad", "--json"});
   REQUIRE(first.exit_code == 0);
   for (int run = 0; run < 4; ++run) {
-    CHECK(slipfit({"fit", "--joint", example.manifest, "--group", "pad", "--json"}).out == first.out);
+    CHECK(run_slipfit({"fit", "--joint", example.manifest, "--group", "pad", "--json"}).out == first.out);
   }
 }
 
@@ -159,7 +160,7 @@ TEST_CASE("strokes applies to one recording are fitted together, alone and as a 
         std::to_string(1e-3 * i) + "," + std::to_string(side * ramp * test::sawtooth_N(1e-3 * in_stroke, 0.2)) + "\n";
   }
   const std::string file = folder.file("run.csv", text);
-  const auto fit = test::slipfit({"fit", file, "--speed", "0.01", "--strokes", "--json"});
+  const auto fit = test::run_slipfit({"fit", file, "--speed", "0.01", "--strokes", "--json"});
   REQUIRE(fit.exit_code == 0);
   const auto document = nlohmann::json::parse(fit.out);
   CHECK(document["recordings"].size() == 4);
@@ -168,7 +169,7 @@ TEST_CASE("strokes applies to one recording are fitted together, alone and as a 
     const bool depends_on_speed = name == "friction_difference_N" || name == "damping_ratio";
     if (depends_on_speed) CHECK(parameter["status"] != "identified");
   }
-  const auto analysis = test::slipfit({"analyze", file, "--speed", "0.01", "--strokes=negative", "--json"});
+  const auto analysis = test::run_slipfit({"analyze", file, "--speed", "0.01", "--strokes=negative", "--json"});
   REQUIRE(analysis.exit_code == 0);
   CHECK(nlohmann::json::parse(analysis.out)["recordings"].size() == 2);
   test::check_refused({"fit", file, "--speed", "0.01", "--strokes", "--curve", folder.path("c.csv")},
@@ -177,12 +178,12 @@ TEST_CASE("strokes applies to one recording are fitted together, alone and as a 
 
   const std::string manifest = folder.file("runs.csv", "id,file,speed_m_per_s,strokes\nr1,run.csv,0.01,both\n");
   const std::vector<std::string> batch{"batch", manifest, "--out", folder.path("out"), "--quiet", "--jobs", "1"};
-  REQUIRE(test::slipfit(batch).exit_code == 0);
+  REQUIRE(test::run_slipfit(batch).exit_code == 0);
   const std::string results = test::content_of(folder.path("out/results.jsonl"));
   CHECK(nlohmann::json::parse(results)["recordings"].size() == 4);
   std::vector<std::string> again = batch;
   again.emplace_back("--resume");
-  REQUIRE(test::slipfit(again).exit_code == 0);
+  REQUIRE(test::run_slipfit(again).exit_code == 0);
   CHECK(nlohmann::json::parse(test::content_of(folder.path("out/run.json")))["before"] == 1);
 }
 
@@ -190,8 +191,8 @@ TEST_CASE("segments of one file are a joint fit as a row of a batch, and its pag
   const test::TemporaryFolder folder;
   static_cast<void>(folder.file("sweep.csv", test::segments_csv()));
   const std::string manifest = folder.file("runs.csv", "id,file,speed_m_per_s,segments\nr1,sweep.csv,,yes\n");
-  const test::ProgramResult batch = slipfit({"batch", manifest, "--out", folder.path("out"), "--quiet", "--jobs", "1",
-                                             "--report", folder.path("pages/index.html")});
+  const test::ProgramResult batch = run_slipfit({"batch", manifest, "--out", folder.path("out"), "--quiet", "--jobs",
+                                                 "1", "--report", folder.path("pages/index.html")});
   CAPTURE(batch.err);
   REQUIRE(batch.exit_code == 0);
   const json document = json::parse(test::content_of(folder.path("out/results.jsonl")));

@@ -18,7 +18,7 @@ SweepExample::SweepExample() {
     arguments.insert(arguments.end(), model.begin(), model.end());
     arguments.insert(arguments.end(), {"--noise", "0.02", "--jitter", "0.05", "--seed", std::to_string(rows.size())});
     const std::string name = std::string(id) + ".csv";
-    const ProgramResult simulated = slipfit(arguments);
+    const ProgramResult simulated = run_slipfit(arguments);
     REQUIRE(simulated.exit_code == 0);
     static_cast<void>(folder.file(name, simulated.out));
     rows += std::string(id) + "," + name + "," + speed + ",spring,pad\n";
@@ -30,7 +30,7 @@ SweepExample::SweepExample() {
 nlohmann::json SweepExample::fit(const std::vector<std::string>& options) const {
   std::vector<std::string> arguments{"fit", "--joint", manifest, "--json", "--quiet", "--out", out};
   arguments.insert(arguments.end(), options.begin(), options.end());
-  const ProgramResult result = slipfit(arguments);
+  const ProgramResult result = run_slipfit(arguments);
   CAPTURE(arguments, result.err);
   REQUIRE(result.exit_code == 0);
   return nlohmann::json::parse(content_of(out));

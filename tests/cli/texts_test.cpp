@@ -14,7 +14,7 @@ const std::string kDemo = std::string(SLIPFIT_TESTDATA_DIR) + "/demo.csv";
 std::string fit_text(const std::vector<std::string>& options) {
   std::vector<std::string> arguments{"fit", kDemo, "--details"};
   arguments.insert(arguments.end(), options.begin(), options.end());
-  const auto run = test::slipfit(arguments);
+  const auto run = test::run_slipfit(arguments);
   REQUIRE(run.exit_code == 0);
   return run.out;
 }
@@ -71,18 +71,18 @@ TEST_CASE("speeds come back in the unit that they were given in, in text and pag
 TEST_CASE("a prediction, a plan and a sweep show speeds in the unit that they were given in") {
   const test::TemporaryFolder folder;
   fit_text({"--speed", "10mm/s", "--json", "--out", folder.path("fit.json")});
-  const auto predicted = test::slipfit({"predict", folder.path("fit.json"), "--speeds", "300mm/min,600mm/min"});
+  const auto predicted = test::run_slipfit({"predict", folder.path("fit.json"), "--speeds", "300mm/min,600mm/min"});
   CHECK_THAT(predicted.out, Contains("[mm/min]") && Contains("critical speed: 12") && !Contains("mm/s"));
   const auto plan =
-      test::slipfit({"plan", folder.path("fit.json"), "--for", "periodic_displacement_m", "--at", "600mm/min"});
+      test::run_slipfit({"plan", folder.path("fit.json"), "--for", "periodic_displacement_m", "--at", "600mm/min"});
   CHECK_THAT(plan.out, Contains("at 600.0 mm/min") && !Contains("mm/s"));
   const std::string row = "," + kDemo + ",600\n";
   const std::string manifest = folder.file("runs.csv", "id,file,speed [mm/min]\na" + row + "b" + row);
-  CHECK_THAT(test::slipfit({"fit", "--joint", manifest}).out, Contains("600 mm/min") && !Contains("mm/s"));
+  CHECK_THAT(test::run_slipfit({"fit", "--joint", manifest}).out, Contains("600 mm/min") && !Contains("mm/s"));
 }
 
 TEST_CASE("the default text is one screen, and it names the way to all results") {
-  const auto run = test::slipfit({"fit", kDemo, "--speed", "10mm/s"});
+  const auto run = test::run_slipfit({"fit", kDemo, "--speed", "10mm/s"});
   REQUIRE(run.exit_code == 0);
   CHECK(std::count(run.out.begin(), run.out.end(), '\n') <= 25);
   CHECK_THAT(run.out, Contains("friction drop F_s - F_k") && Contains("conditional (1)") && Contains("--details"));

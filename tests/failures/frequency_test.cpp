@@ -6,11 +6,11 @@
 
 namespace {
 
-constexpr std::uint64_t kSeeds = 6;
+constexpr std::uint64_t kSeedsOfFactor = 6;
 
 /// Asks both commands; the quoted frequency is right, has an interval that holds the truth, or is absent with a reason.
 void check_frequency(const atlas::Factors& factors) {
-  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+  for (std::uint64_t seed = 1; seed <= kSeedsOfFactor; ++seed) {
     const atlas::Scene scene = atlas::make_scene(factors, seed);
     INFO("seed " << seed << " noise " << factors.noise << " hum " << factors.hum << " jitter " << factors.jitter
                  << " cycles " << factors.cycles);

@@ -12,7 +12,7 @@ TEST_CASE("slipfit figures writes every figure, the same bytes twice, into a fol
   const test::TemporaryFolder folder;
   const std::string target = folder.path("figures");
   for (int run = 0; run < 2; ++run) {
-    const test::ProgramResult result = test::slipfit({"figures", "--out", target});
+    const test::ProgramResult result = test::run_slipfit({"figures", "--out", target});
     CHECK(result.exit_code == 0);
     CHECK(result.out.empty());
     CHECK(test::lines_in(result.err) == 1);
@@ -22,7 +22,7 @@ TEST_CASE("slipfit figures writes every figure, the same bytes twice, into a fol
     CHECK(written == static_cast<std::ptrdiff_t>(files.size()));
     for (const slipfit::FigureFile& file : files) CHECK(test::content_of(target + "/" + file.name) == file.content);
   }
-  CHECK(test::slipfit({"figures", "--out", target, "--quiet"}).err.empty());
+  CHECK(test::run_slipfit({"figures", "--out", target, "--quiet"}).err.empty());
 }
 
 TEST_CASE("slipfit figures refuses a missing, wrong or unwritable --out in one line") {

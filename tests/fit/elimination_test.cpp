@@ -18,8 +18,8 @@ constexpr Index kCommon = 5;
 
 /// Cycles that meet four of the five common parameters each: random lines of a least-squares problem, once as the
 /// elimination takes them and once as one large matrix, own parameters first.
-struct Scene {
-  explicit Scene(bool joined) : all(MatrixXd::Zero(0, kCycles * kOwn + kCommon + 1)) {
+struct CyclesScene {
+  explicit CyclesScene(bool joined) : all(MatrixXd::Zero(0, kCycles * kOwn + kCommon + 1)) {
     std::mt19937_64 random(71);
     std::normal_distribution<double> normal;
     const auto draw = [&] { return normal(random); };
@@ -75,7 +75,7 @@ struct Scene {
 }  // namespace
 
 TEST_CASE("fit: eliminating the cycles' own parameters gives the least squares of all parameters") {
-  const Scene scene(GENERATE(false, true));
+  const CyclesScene scene(GENERATE(false, true));
   const Index unknowns = kCycles * kOwn + kCommon;
   const MatrixXd jacobian = scene.all.leftCols(unknowns);
   const VectorXd residuals = scene.all.rightCols<1>();
@@ -96,7 +96,7 @@ TEST_CASE("fit: eliminating the cycles' own parameters gives the least squares o
 }
 
 TEST_CASE("fit: own parameters alone go to their least squares, or a share of the way") {
-  const Scene scene(GENERATE(false, true));
+  const CyclesScene scene(GENERATE(false, true));
   const MatrixXd jacobian = scene.all.leftCols(kCycles * kOwn);
   const VectorXd expected = -jacobian.colPivHouseholderQr().solve(scene.all.rightCols<1>());
   const double share = GENERATE(1.0, 0.25);

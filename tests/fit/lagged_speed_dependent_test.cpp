@@ -11,9 +11,9 @@ using namespace slipfit::fit;
 
 namespace {
 
-constexpr double kOnset = 6.0;
+constexpr double kLaggedOnset = 6.0;
 
-struct Instrument {
+struct SensorInTau {
   double lag_tau = 0.0, average_tau = 0.0;  ///< at w_n = 9 rad/s
   ForceView view = ForceView::Spring;
 };
@@ -25,7 +25,7 @@ Coordinates values_of(double zeta, double slope, double rate) {
   return values;
 }
 
-SpeedDependentCycle cycle(const Coordinates& values, const Instrument& instrument, double onset = kOnset) {
+SpeedDependentCycle cycle(const Coordinates& values, const SensorInTau& instrument, double onset = kLaggedOnset) {
   Scales scales;
   scales.speed_m_per_s = 0.01;
   scales.law = FrictionLaw::Exponential;
@@ -38,22 +38,22 @@ SpeedDependentCycle cycle(const Coordinates& values, const Instrument& instrumen
   return SpeedDependentCycle::solve(onset, values, {scales.sensor_lag_s, scales.sensor_average_s}, scales).value();
 }
 
-Instrument any_instrument() {
+SensorInTau any_sensor() {
   const auto view = GENERATE(ForceView::Spring, ForceView::Transmitted);
   const double lag = GENERATE(0.003, 0.1, 0.7, 4.0);
   const double average = GENERATE(0.0, 0.4, 5.0);
   return {lag, average, view};
 }
 
-constexpr std::array kTimes{-2.0, -0.01, 0.0, 0.2, 1.7, 3.1, 4.4, 5.0, 9.0};
+constexpr std::array kLaggedTimes{-2.0, -0.01, 0.0, 0.2, 1.7, 3.1, 4.4, 5.0, 9.0};
 
 }  // namespace
 
 TEST_CASE("without dependence on the speed a lagging sensor shows the closed form of Coulomb friction") {
-  const Instrument instrument = any_instrument();
+  const SensorInTau instrument = any_sensor();
   const SpeedDependentCycle integrated = cycle(values_of(0.1, 0.0, 0.0), instrument);
-  const CoulombCycle exact(kOnset, 0.1, {instrument.lag_tau, instrument.average_tau}, instrument.view);
-  for (const double tau : kTimes) {
+  const CoulombCycle exact(kLaggedOnset, 0.1, {instrument.lag_tau, instrument.average_tau}, instrument.view);
+  for (const double tau : kLaggedTimes) {
     CAPTURE(instrument.lag_tau, instrument.average_tau, tau);
     const model::WavePoint expected = exact.at(tau);
     const ShownPoint shown = integrated.at(tau);
@@ -68,11 +68,11 @@ TEST_CASE("without dependence on the speed a lagging sensor shows the closed for
 }
 
 TEST_CASE("what a lagging sensor shows of friction that depends on the speed obeys its equation") {
-  const Instrument instrument = any_instrument();
+  const SensorInTau instrument = any_sensor();
   const Coordinates values = values_of(0.1, 0.05, -1.5);
   const SpeedDependentCycle before = cycle(values, {0.0, instrument.average_tau, instrument.view});
   const SpeedDependentCycle lagged = cycle(values, instrument);
-  for (const double tau : kTimes) {
+  for (const double tau : kLaggedTimes) {
     CAPTURE(instrument.lag_tau, instrument.average_tau, tau);
     const ShownPoint shown = lagged.at(tau);
     constexpr double kStep = 1e-4;
@@ -83,7 +83,7 @@ TEST_CASE("what a lagging sensor shows of friction that depends on the speed obe
 }
 
 TEST_CASE("derivatives of a lagging sensor's view of friction that depends on the speed agree with differences") {
-  const Instrument instrument = any_instrument();
+  const SensorInTau instrument = any_sensor();
   const std::array<double, 3> law{0.1, 0.05, -1.5};
   const SpeedDependentCycle lagged = cycle(values_of(law[0], law[1], law[2]), instrument);
   for (const double tau : {-0.01, 0.2, 1.7, 3.1, 9.0}) {
@@ -100,7 +100,7 @@ TEST_CASE("derivatives of a lagging sensor's view of friction that depends on th
       CHECK(by_law[i] == Approx((moved(kStep) - moved(-kStep)) / (2.0 * kStep)).margin(1e-3).epsilon(1e-3));
     }
     const auto started = [&](double step) {
-      return cycle(values_of(law[0], law[1], law[2]), instrument, kOnset + step).at(tau).z;
+      return cycle(values_of(law[0], law[1], law[2]), instrument, kLaggedOnset + step).at(tau).z;
     };
     CHECK(shown.d_z0 == Approx((started(kStep) - started(-kStep)) / (2.0 * kStep)).margin(1e-3));
     const auto scaled = [&](double step) {  // the instrument's times are fixed in seconds

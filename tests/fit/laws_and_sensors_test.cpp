@@ -15,9 +15,9 @@ using namespace slipfit::fit;
 
 namespace {
 
-constexpr double kStiffness = 60.0;  // N/m
-constexpr double kOmega = 9.0;       // rad/s
-constexpr double kOnsetForce = 1.0;  // N
+constexpr double kModelStiffness = 60.0;  // N/m
+constexpr double kModelOmega = 9.0;       // rad/s
+constexpr double kOnsetForce = 1.0;       // N
 
 const char* name_of(FrictionLaw law) {
   switch (law) {
@@ -51,7 +51,7 @@ Scales scales_of(FrictionLaw law, ForceView view, const Instrument& instrument, 
   scales.sensor_order = instrument.order;
   scales.sensor_average_s = instrument.average_s;
   scales.law = law;
-  scales.slip_distance_m = kOnsetForce / kStiffness;
+  scales.slip_distance_m = kOnsetForce / kModelStiffness;
   if (!is_sweep) return scales;
   Population population;
   population.onset_sd = 0.1;
@@ -61,7 +61,7 @@ Scales scales_of(FrictionLaw law, ForceView view, const Instrument& instrument, 
 }
 
 Coordinates true_values(FrictionLaw law) {
-  Coordinates values = oscillator(std::log(kStiffness), std::log(kOmega), 0.1);
+  Coordinates values = oscillator(std::log(kModelStiffness), std::log(kModelOmega), 0.1);
   if (depends_on_speed(law)) {
     values(kFrictionSlope) = -0.03;
     values(kFrictionRate) = -1.2;
@@ -82,7 +82,7 @@ BlockFit exact(const Scales& scales, const Coordinates& values) {
   const auto fit_of = [&](const std::vector<CycleData>& cycles) {
     BlockFit fit = BlockFit::create(cycles, std::vector(kCount, 0.0), scales, level).value();
     fit.start_at(values);
-    const double drag = 2.0 * values(kDamping) * kStiffness * scales.speed_m_per_s / kOmega;
+    const double drag = 2.0 * values(kDamping) * kModelStiffness * scales.speed_m_per_s / kModelOmega;
     fit.parameters.values(kDifference) = kOnsetForce + drag;
     for (std::size_t i = 0; i < kCount; ++i) {
       fit.parameters.cycles[i] = {0.02 * static_cast<double>(i), kOnsetForce, 0.0};
@@ -181,8 +181,8 @@ TEST_CASE("a sweep gives back the parameters of a spring that relaxes behind eve
   std::vector<BlockFit> recordings;
   for (const double speed_m_per_s : {0.004, 0.01, 0.025}) {
     Scales scales = scales_of(FrictionLaw::Coulomb, view, instrument, speed_m_per_s, true);
-    const double stick_s = 1.8 * kOnsetForce / kStiffness / speed_m_per_s;
-    scales.relaxing = RelaxingCycles{3.3, 3.3 + kOmega * stick_s, 10.0};
+    const double stick_s = 1.8 * kOnsetForce / kModelStiffness / speed_m_per_s;
+    scales.relaxing = RelaxingCycles{3.3, 3.3 + kModelOmega * stick_s, 10.0};
     recordings.push_back(displaced(exact(scales, truth)));
   }
   REQUIRE(std::isfinite(solve_together(recordings, {}, {{}, false, false, 200, 1e-12})));

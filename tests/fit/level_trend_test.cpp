@@ -9,7 +9,7 @@
 namespace slipfit {
 namespace {
 
-constexpr double kStiffness = 500.0, kOmega = 120.0, kZeta = 0.06, kSpeed = 0.01;
+constexpr double kTrueStiffness = 500.0, kTrueOmega = 120.0, kZeta = 0.06, kSpeed = 0.01;
 
 using CourseOf = std::function<double(double share)>;  ///< of time, 0 to 1
 
@@ -18,28 +18,28 @@ using CourseOf = std::function<double(double share)>;  ///< of time, 0 to 1
 Recording slide(const CourseOf& friction, const CourseOf& sensor, std::vector<double>* load_N = nullptr) {
   constexpr double kDuration_s = 8.0, kStep_s = 1e-3;
   constexpr int kSubsteps = 50;
-  const double mass = kStiffness / (kOmega * kOmega);
-  const double damping = 2.0 * kZeta * kOmega * mass;
+  const double mass = kTrueStiffness / (kTrueOmega * kTrueOmega);
+  const double damping = 2.0 * kZeta * kTrueOmega * mass;
   std::mt19937_64 random(3);
   std::normal_distribution<double> noise(0.0, 0.005);
   std::vector<double> time_s, force;
-  double extension_m = 1.4 / kStiffness;
+  double extension_m = 1.4 / kTrueStiffness;
   double velocity = 0.0;  // of the body
   bool sticks = true;
   for (double t = 0.0; t < kDuration_s; t += kStep_s) {
     const double factor = friction(t / kDuration_s);
     for (int i = 0; i < kSubsteps; ++i) {
-      const double pull = kStiffness * extension_m + damping * (kSpeed - velocity);
+      const double pull = kTrueStiffness * extension_m + damping * (kSpeed - velocity);
       if (sticks && pull > 2.0 * factor) sticks = false;
       if (!sticks) velocity += (pull - 1.4 * factor) / mass * kStep_s / kSubsteps;
       if (velocity <= 0.0 && !sticks) {
         velocity = 0.0;
-        sticks = kStiffness * extension_m + damping * kSpeed < 2.0 * factor;
+        sticks = kTrueStiffness * extension_m + damping * kSpeed < 2.0 * factor;
       }
       extension_m += (kSpeed - velocity) * kStep_s / kSubsteps;
     }
     time_s.push_back(t + kStep_s);
-    force.push_back(kStiffness * extension_m + sensor(t / kDuration_s) + noise(random));
+    force.push_back(kTrueStiffness * extension_m + sensor(t / kDuration_s) + noise(random));
     if (load_N != nullptr) load_N->push_back(5.0 * factor);
   }
   Conditions conditions;
@@ -74,15 +74,15 @@ TEST_CASE("the interval of k includes both readings of a trend of the level") {
   const LevelTrend& trend = open.fit->level_trend;
   CHECK(trend.reading == LevelReading::Open);
   CHECK(*trend.rate_per_s.value == Approx(0.8 * 1.4 / 8.0).epsilon(0.05));
-  CHECK(holds(open.fit->stiffness(), kStiffness));
+  CHECK(holds(open.fit->stiffness(), kTrueStiffness));
   CHECK(has_warning(open, "level_trend"));
   CHECK(parameter(open, "static_friction_N").status != ParameterStatus::Identified);
 
   const Analysis friction = analyze_and_fit(with(recording, LevelReading::Friction));
-  CHECK(holds(friction.fit->stiffness(), kStiffness));
+  CHECK(holds(friction.fit->stiffness(), kTrueStiffness));
   CHECK(parameter(friction, "stiffness_N_per_m").status == ParameterStatus::Identified);
   const Analysis sensor = analyze_and_fit(with(recording, LevelReading::Sensor));
-  CHECK_FALSE(holds(sensor.fit->stiffness(), kStiffness));
+  CHECK_FALSE(holds(sensor.fit->stiffness(), kTrueStiffness));
   CHECK(*friction.fit->stiffness().value - *sensor.fit->stiffness().value ==
         Approx(*trend.rate_per_s.value / kSpeed).epsilon(0.02));
 }
@@ -91,11 +91,11 @@ TEST_CASE("a drift of the sensor is in the interval of k, and its start in that 
   const Recording recording = slide(kConstant, [](double share) { return 1.6 * share; });
   const Analysis open = analyze_and_fit(recording);
   REQUIRE(open.fit);
-  CHECK(holds(open.fit->stiffness(), kStiffness));
+  CHECK(holds(open.fit->stiffness(), kTrueStiffness));
   CHECK(holds(parameter(open, "static_friction_N").estimate, 2.0));
   CHECK(parameter(open, "static_friction_N").status != ParameterStatus::Identified);
   const Analysis sensor = analyze_and_fit(with(recording, LevelReading::Sensor));
-  CHECK(holds(sensor.fit->stiffness(), kStiffness));
+  CHECK(holds(sensor.fit->stiffness(), kTrueStiffness));
   CHECK(sensor.fit->stiffness().ci95->high < open.fit->stiffness().ci95->high);
 }
 
@@ -105,13 +105,13 @@ TEST_CASE("sticks that follow a bent level, or do not, decide the reading") {
     const Analysis run_in = analyze_and_fit(slide([&](double s) { return 1.0 + 0.3 * decay(s); }, kNothing));
     REQUIRE(run_in.fit);
     CHECK(run_in.fit->level_trend.reading == LevelReading::Friction);
-    CHECK(holds(run_in.fit->stiffness(), kStiffness));
+    CHECK(holds(run_in.fit->stiffness(), kTrueStiffness));
   }
   SECTION("a sensor that settles") {
     const Analysis settles = analyze_and_fit(slide(kConstant, [&](double s) { return 1.2 * decay(s); }));
     REQUIRE(settles.fit);
     CHECK(settles.fit->level_trend.reading == LevelReading::Sensor);
-    CHECK(holds(settles.fit->stiffness(), kStiffness));
+    CHECK(holds(settles.fit->stiffness(), kTrueStiffness));
   }
 }
 
@@ -121,8 +121,8 @@ TEST_CASE("a load that was measured decides the reading where it explains the tr
   const Analysis by_load = analyze_and_fit(with(recording, LevelReading::Open, load_N));
   REQUIRE(by_load.fit);
   CHECK(by_load.fit->level_trend.reading == LevelReading::Friction);
-  CHECK(holds(by_load.fit->stiffness(), kStiffness));
-  CHECK(by_load.fit->stiffness().ci95->low > 0.98 * kStiffness);
+  CHECK(holds(by_load.fit->stiffness(), kTrueStiffness));
+  CHECK(by_load.fit->stiffness().ci95->low > 0.98 * kTrueStiffness);
   const Analysis steady =
       analyze_and_fit(with(recording, LevelReading::Open, std::vector<double>(recording.size(), 5.0)));
   CHECK(steady.fit->level_trend.reading == LevelReading::Open);

@@ -9,12 +9,12 @@ using namespace slipfit;
 
 namespace {
 
-struct Scene {
+struct SawTooth {
   Analysis analysis;
   double frequency_Hz = 0.0;  ///< of the mean static friction
 };
 
-Scene scene(std::uint64_t seed, double static_friction_sd_N) {
+SawTooth scene(std::uint64_t seed, double static_friction_sd_N) {
   constexpr double kSpeed_m_per_s = 0.015;
   const Slider slider = Slider::create(500.0, 120.0, 0.05).value();
   const Friction friction = Friction::create(2.0, 1.4).value();
@@ -37,7 +37,7 @@ TEST_CASE("regular cycles are timed by all samples, scattering ones by their dro
   int from_spectrum = 0, held = 0, scattered_held = 0;
   constexpr std::uint64_t kRecordings = 30;
   for (std::uint64_t seed = 1; seed <= kRecordings; ++seed) {
-    const Scene regular = scene(seed, 0.0);
+    const SawTooth regular = scene(seed, 0.0);
     const Estimate& quoted = regular.analysis.frequency.quoted;
     REQUIRE(quoted.ci95);
     if (quoted.ci95->low <= regular.frequency_Hz && regular.frequency_Hz <= quoted.ci95->high) ++held;
@@ -45,7 +45,7 @@ TEST_CASE("regular cycles are timed by all samples, scattering ones by their dro
       ++from_spectrum;
       CHECK(*quoted.standard_error < 3e-5 * regular.frequency_Hz);  // the bound is 4e-6, the mean period has 2e-4
     }
-    const Scene scattered = scene(seed, 0.03);
+    const SawTooth scattered = scene(seed, 0.03);
     INFO("seed " << seed);
     CHECK(scattered.analysis.frequency.method == FrequencyMethod::FittedCycles);
     const Estimate& mean = scattered.analysis.frequency.quoted;

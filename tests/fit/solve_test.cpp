@@ -27,7 +27,7 @@ Recording scattering() {
   return Recording::create(std::move(trace.time_s), std::move(trace.force_N), conditions).value();
 }
 
-fit::BlockFit fitted(const Recording& recording) {
+fit::BlockFit solver_fit(const Recording& recording) {
   const Quality quality = assess_quality(recording);
   const Segmentation slips = find_slips(recording, quality);
   const HeldParameters held;
@@ -56,7 +56,7 @@ fit::BlockFit moved(fit::BlockFit fit) {
 
 TEST_CASE("a rough solve ends where a fine one has hardly anything to gain") {
   const Recording recording = scattering();
-  fit::BlockFit fit = moved(fitted(recording));
+  fit::BlockFit fit = moved(solver_fit(recording));
   REQUIRE(fit.size() > 40);
   const double before = sum_of_squares(fit);
   const double rough = fit::solve(fit, {{}, false, true, 60, 0.1});
@@ -72,7 +72,7 @@ TEST_CASE("a rough solve ends where a fine one has hardly anything to gain") {
 
 TEST_CASE("a solve that starts at the minimum stays there") {
   const Recording recording = scattering();
-  fit::BlockFit fit = fitted(recording);
+  fit::BlockFit fit = solver_fit(recording);
   fit::solve(fit, {{}, false, true, 60, 1e-9});
   const fit::Coordinates there = fit.parameters.values;
   const double end = sum_of_squares(fit);

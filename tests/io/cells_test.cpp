@@ -48,14 +48,14 @@ TEST_CASE("a plain number ends after its exponent, and too large numbers are lef
 
 namespace {
 
-struct Case {
+struct CellText {
   std::string text;
   CellKind kind;
   double value;
   std::string tag;
 };
 
-const Case kCases[] = {
+const CellText kCases[] = {
     {" 1.5 ", CellKind::Number, 1.5, ""},
     {"+1.5", CellKind::Number, 1.5, ""},
     {"-.5e2", CellKind::Number, -50.0, ""},
@@ -84,7 +84,7 @@ const Case kCases[] = {
 }  // namespace
 
 TEST_CASE("a cell is a number, a clock, missing, blank or text") {
-  for (const Case& c : kCases) {
+  for (const CellText& c : kCases) {
     CAPTURE(c.text);
     const Cell cell = read_cell(c.text, false);
     CHECK(cell.kind == c.kind);

@@ -4,7 +4,7 @@ using namespace io_test;
 
 namespace {
 
-struct Case {
+struct Refused {
   std::string what;
   std::string content;
   std::string code;
@@ -24,7 +24,7 @@ TEST_CASE("each unusable content has its own error, in one line with the place")
   const std::string rows = "0,1\n1,2\n2,1\n3,2\n";
   std::string backwards = "time,force\n";
   for (int i = 0; i < 50; ++i) backwards += std::to_string(i * 7 % 50) + "," + std::to_string(i % 3) + "\n";
-  const std::vector<Case> cases = {
+  const std::vector<Refused> cases = {
       {"empty", "", "empty_file", "empty"},
       {"blank lines", "\n  \n\t\n", "empty_file", "blank"},
       {"binary", std::string("PK\x07\x04\0\0\0\x08", 8) + "abc", "binary_file", "not a text file"},
@@ -45,7 +45,7 @@ TEST_CASE("each unusable content has its own error, in one line with the place")
       {"force unit unknown", "time,force [V]\n" + rows, "unknown_unit", "column 2 'force [V]'"},
       {"time unit unknown", "time [furlong],force\n" + rows, "unknown_unit", "--time-unit"},
   };
-  for (const Case& c : cases) {
+  for (const Refused& c : cases) {
     CAPTURE(c.what);
     const auto error = read_error(c.content);
     CHECK(error.code == c.code);

@@ -4,8 +4,8 @@ using namespace io_test;
 
 namespace {
 
-const std::vector<double> kTime = {0.0, 0.5, 1.0, 1.5};
-const std::vector<double> kForce = {1.25, -2.0, 3.5, 4.0};
+const std::vector<double> kExpectedTime = {0.0, 0.5, 1.0, 1.5};
+const std::vector<double> kExpectedForce = {1.25, -2.0, 3.5, 4.0};
 
 struct Format {
   std::string what;
@@ -106,8 +106,8 @@ TEST_CASE("the same four samples come out of every layout") {
     const double start_s = format.what == "clock" ? 43199.5 : 0.0;
     REQUIRE(recording.size() == 4);
     for (std::size_t i = 0; i < 4; ++i) {
-      CHECK(recording.time_s()[i] - start_s == Approx(kTime[i]).margin(1e-12));
-      CHECK(recording.force()[i] == Approx(kForce[i]).epsilon(1e-14));
+      CHECK(recording.time_s()[i] - start_s == Approx(kExpectedTime[i]).margin(1e-12));
+      CHECK(recording.force()[i] == Approx(kExpectedForce[i]).epsilon(1e-14));
     }
     CHECK(recording.provenance().rows_without_number == 0);
     CHECK(recording.provenance().warnings.empty());

@@ -16,16 +16,16 @@ using namespace slipfit;
 
 namespace {
 
-using Values = std::array<double, kVelocityParameters>;
+using VelocityValues = std::array<double, kVelocityParameters>;
 
 model::SlipOutcome outcome_of(const model::ScaledSlip& slip) {
   return model::follow_slip<false>(slip, model::kExact, [](const auto&) {}).outcome;
 }
 
-double& value(Values& p, VelocityParameter parameter) {
+double& value(VelocityValues& p, VelocityParameter parameter) {
   return p[static_cast<std::size_t>(parameter)];
 }
-double value(const Values& p, VelocityParameter parameter) {
+double value(const VelocityValues& p, VelocityParameter parameter) {
   return p[static_cast<std::size_t>(parameter)];
 }
 
@@ -35,7 +35,7 @@ struct Scene {
   double speed_m_per_s;
 };
 
-Scene scene_of(const Values& p) {
+Scene scene_of(const VelocityValues& p) {
   return {Slider::create(value(p, VelocityParameter::Stiffness), value(p, VelocityParameter::NaturalFrequency),
                          value(p, VelocityParameter::DampingRatio))
               .value(),
@@ -46,12 +46,12 @@ Scene scene_of(const Values& p) {
 }
 
 /// Sticks for a good part of the period, so that a difference does not step over the end of stick-slip.
-Values random_values(std::mt19937_64& random) {
+VelocityValues random_velocity_values(std::mt19937_64& random) {
   const auto uniform = [&](double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(random);
   };
   for (;;) {
-    Values p{};
+    VelocityValues p{};
     value(p, VelocityParameter::Stiffness) = uniform(100.0, 5000.0);
     value(p, VelocityParameter::NaturalFrequency) = uniform(20.0, 800.0);
     value(p, VelocityParameter::DampingRatio) = uniform(0.01, 0.3);
@@ -72,11 +72,11 @@ Values random_values(std::mt19937_64& random) {
 
 /// Central difference of eighth order: error h^8 f^(9) / 630 and round-off of 1e-12 f / h.
 template <class F>
-double difference(const F& f, const Values& p, std::size_t i) {
+double difference(const F& f, const VelocityValues& p, std::size_t i) {
   const double h = 2e-3 * std::abs(p[i]);
   const auto odd = [&](double steps) {
-    Values up = p;
-    Values down = p;
+    VelocityValues up = p;
+    VelocityValues down = p;
     up[i] += steps * h;
     down[i] -= steps * h;
     return f(up) - f(down);
@@ -101,8 +101,8 @@ constexpr std::array<std::pair<VelocityDerivative VelocityDerivatives::*, double
 TEST_CASE("derivatives of velocity-dependent cycles agree with eighth-order differences") {
   std::mt19937_64 random(61);
   for (int trial = 0; trial < 60; ++trial) {
-    const Values p = random_values(random);
-    const auto cycle_at = [](const Values& q) {
+    const VelocityValues p = random_velocity_values(random);
+    const auto cycle_at = [](const VelocityValues& q) {
       const Scene scene = scene_of(q);
       return *velocity_motion(scene.slider, scene.friction, scene.speed_m_per_s).value().motion.cycle;
     };
@@ -117,7 +117,7 @@ TEST_CASE("derivatives of velocity-dependent cycles agree with eighth-order diff
       CHECK(((*exact).*derivative).value == Approx(cycle.*member).epsilon(1e-11).margin(1e-11 * cycle.force_peak_N));
       for (std::size_t i = 0; i < kVelocityParameters; ++i) {
         INFO("trial " << trial << " quantity " << quantity << " parameter " << i);
-        const double expected = difference([&](const Values& q) { return cycle_at(q).*member; }, p, i);
+        const double expected = difference([&](const VelocityValues& q) { return cycle_at(q).*member; }, p, i);
         CHECK(((*exact).*derivative).gradient[i] ==
               Approx(expected).epsilon(1e-7).margin(1e-7 * size / std::abs(p[i])));
       }
@@ -163,7 +163,7 @@ TEST_CASE("the end of a slip is the same whether a step ends on it, or one ulp b
 TEST_CASE("a velocity-dependent waveform starts, ends and sticks as its cycle says") {
   std::mt19937_64 random(71);
   for (int trial = 0; trial < 50; ++trial) {
-    const Values p = random_values(random);
+    const VelocityValues p = random_velocity_values(random);
     const Scene scene = scene_of(p);
     const LimitCycle cycle = *velocity_motion(scene.slider, scene.friction, scene.speed_m_per_s).value().motion.cycle;
     const std::vector<double> time_s{0.0, 0.0, cycle.slip_s, cycle.period_s};

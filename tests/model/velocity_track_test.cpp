@@ -17,11 +17,11 @@ using model::VelocityTrack;
 
 namespace {
 
-struct Scene {
+struct RandomSlip {
   double lambda, zeta, strength, rate;
 };
 
-Scene random_scene(std::mt19937_64& random) {
+RandomSlip random_slip(std::mt19937_64& random) {
   const auto uniform = [&](double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(random);
   };
@@ -36,7 +36,7 @@ TEST_CASE("track: end of slip, waveform and derivatives agree with the exact vel
   double worst_derivative = 0.0;
   int compared = 0;
   for (int trial = 0; trial < 300; ++trial) {
-    const Scene s = random_scene(random);
+    const RandomSlip s = random_slip(random);
     INFO("lambda " << s.lambda << " zeta " << s.zeta << " strength " << s.strength << " rate " << s.rate);
     const Slider slider = Slider::create(1.0, 1.0, s.zeta).value();
     const double onset_N = 10.0;
@@ -116,7 +116,7 @@ TEST_CASE("track: friction linear in the speed agrees with the closed form of vi
   std::mt19937_64 random(83);
   double worst = 0.0;
   for (int trial = 0; trial < 300; ++trial) {
-    const Scene s = random_scene(random);
+    const RandomSlip s = random_slip(random);
     const double slope = 0.2 * (s.strength - 2.5) / 2.5;  // of either sign
     if (s.zeta + 0.5 * slope < 0.0) continue;
     const double z0 = s.lambda - 2.0 * s.zeta;

@@ -17,21 +17,19 @@
 #include "slipfit/predict/prediction.hpp"
 #include "slipfit/sweep.hpp"
 #include "speed_sweep.hpp"
+#include "support/holds.hpp"
 
 using namespace slipfit;
 using test::critical_speed;
+using test::holds;
 using test::predicted;
 
 namespace {
 
-PredictionModel example() {
+PredictionModel ageing_example() {
   PredictionModel model;
   model.estimate = {350.0, 26.0, 0.03, 0.14, {}, 1e9, true, std::nullopt, Ageing{0.03, 0.5}};
-  const std::array<double, kModelValues> se{0.01, 0.01, 0.005, 0.02, 0.0, 0.0, 0.002, 0.0};
-  for (std::size_t i = 0; i < se.size(); ++i) {
-    for (std::size_t j = 0; j < se.size(); ++j) model.estimate.covariance[i][j] = se[i] * se[j] * (i == j ? 1.0 : 0.2);
-  }
-  model.has_covariance = true;
+  test::set_errors(model, {0.01, 0.01, 0.005, 0.02, 0.0, 0.0, 0.002, 0.0});
   return model;
 }
 
@@ -52,13 +50,9 @@ bool warns(const SweepAnalysis& sweep, const std::string& code) {
   return std::any_of(all.begin(), all.end(), [&](const Warning& warning) { return warning.code == code; });
 }
 
-bool holds(const Estimate& estimate, double truth) {
-  return estimate.ci95 && estimate.ci95->low <= truth && truth <= estimate.ci95->high;
-}
-
 /// With a cut-off of 0.3 of the middle stick, and a standard error of it.
 PredictionModel cut_off_example() {
-  PredictionModel model = example();
+  PredictionModel model = ageing_example();
   model.estimate.ageing->cutoff_s = 0.15;
   for (std::size_t i = 0; i < kModelValues; ++i) {
     const double se = std::sqrt(model.estimate.covariance[i][i]);
@@ -127,7 +121,7 @@ TEST_CASE("ageing: the limit cycle is the one with the longer stick, and there i
 }
 
 TEST_CASE("ageing: without damping stick-slip ends at the speed of docs/model.md (20)") {
-  const PredictionModel model = undamped(example());
+  const PredictionModel model = undamped(ageing_example());
   const ModelEstimate& e = model.estimate;
   const double expected = 2.0 * e.ageing->rate_N / (e.stiffness_N_per_m * e.ageing->reference_stick_s) *
                           std::exp(e.friction_difference_N / e.ageing->rate_N - 1.0);
@@ -135,7 +129,7 @@ TEST_CASE("ageing: without damping stick-slip ends at the speed of docs/model.md
 }
 
 TEST_CASE("ageing: a cut-off delays the end of stick-slip, by Lambert's function, or takes it away") {
-  PredictionModel model = undamped(example());
+  PredictionModel model = undamped(ageing_example());
   model.estimate.friction_difference_N = 0.05;
   Ageing& ageing = *model.estimate.ageing;
   for (const double cutoff_s : {0.02, 0.05, 0.08}) {
@@ -155,7 +149,7 @@ TEST_CASE("ageing: a cut-off delays the end of stick-slip, by Lambert's function
 }
 
 TEST_CASE("ageing: the limit of no cut-off is ageing without one") {
-  const PredictionModel without = example();
+  const PredictionModel without = ageing_example();
   PredictionModel with = without;
   with.estimate.ageing->cutoff_s = 1e-9;
   CHECK(*critical_speed(with).value == Approx(*critical_speed(without).value).epsilon(1e-6));
@@ -166,14 +160,14 @@ TEST_CASE("ageing: the limit of no cut-off is ageing without one") {
 }
 
 TEST_CASE("ageing: intervals follow from derivatives that agree with differences") {
-  const PredictionModel model = GENERATE(example(), cut_off_example(), reloading_example());
+  const PredictionModel model = GENERATE(ageing_example(), cut_off_example(), reloading_example());
   // The end is bracketed to 1e-14 of the speed, its F_s - F_k thereby to the root of that.
   test::check_intervals(model, 1e-6);
 }
 
 TEST_CASE("ageing: the search for quantiles of the end agrees with the ends of all models one by one") {
   // Ageing that is known to a factor of 2: linear propagation does not hold.
-  PredictionModel model = example();
+  PredictionModel model = ageing_example();
   model.estimate.covariance[6][6] = 0.03 * 0.03;
   std::vector<double> ends;
   for (const ModelEstimate& draw : predict::draws_of(model.estimate)) {
@@ -187,7 +181,7 @@ TEST_CASE("ageing: the search for quantiles of the end agrees with the ends of a
 }
 
 TEST_CASE("ageing: a plan for its rate stays below the end of stick-slip and narrows it") {
-  const PredictionModel model = example();
+  const PredictionModel model = ageing_example();
   PlanBasis basis{model.estimate, {{0.0005, 50.0, 60.0}, {0.002, 50.0, 60.0}}, 0.003, 0.01, LevelSharing::Separate};
   const Result<Plan> plan = plan_next(basis, PlanTarget{"ageing_N", std::nullopt});
   REQUIRE(plan);
@@ -270,7 +264,7 @@ TEST_CASE("next to the end of stick-slip the motion is known for a static fricti
   for (const double zeta : {0.01, 0.05, 0.1, 0.1657, 0.3}) {
     for (const double rate_N : {0.01, 0.03, 0.0575, 0.1}) {
       for (const double stiffness_N_per_m : {300.0, 378.83, 420.0}) {
-        ModelEstimate model = example().estimate;
+        ModelEstimate model = ageing_example().estimate;
         model.stiffness_N_per_m = stiffness_N_per_m;
         model.natural_frequency_rad_per_s = 44.114;
         model.damping_ratio = zeta;

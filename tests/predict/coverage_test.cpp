@@ -10,6 +10,7 @@
 #include "slipfit/model/simulation.hpp"
 #include "slipfit/pipeline.hpp"
 #include "slipfit/predict/prediction.hpp"
+#include "support/holds.hpp"
 
 using namespace slipfit;
 
@@ -36,20 +37,16 @@ PredictionModel fitted_model(std::uint64_t seed, const Slider& slider, const Fri
   return model;
 }
 
-int holds(const Estimate& estimate, double truth) {
-  return estimate.ci95->low <= truth && truth <= estimate.ci95->high ? 1 : 0;
-}
-
 /// How many of the motions lie inside the bands of a row.
 struct Inside {
   int period = 0, slip = 0, stick = 0, sticking = 0;
 
   void count(const PredictedMotion& row, const Motion& motion) {
     if (!motion.cycle) return;
-    period += holds(row.period_s, motion.cycle->period_s);
-    slip += holds(row.slip_time_s, motion.cycle->slip_s);
-    stick += holds(row.stick_time_s, motion.cycle->stick_s);
-    sticking += holds(row.sticking_degree, motion.cycle->sticking_degree);
+    period += test::holds(row.period_s, motion.cycle->period_s) ? 1 : 0;
+    slip += test::holds(row.slip_time_s, motion.cycle->slip_s) ? 1 : 0;
+    stick += test::holds(row.stick_time_s, motion.cycle->stick_s) ? 1 : 0;
+    sticking += test::holds(row.sticking_degree, motion.cycle->sticking_degree) ? 1 : 0;
   }
   [[nodiscard]] int least() const { return std::min({period, slip, stick, sticking}); }
 };

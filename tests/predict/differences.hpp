@@ -4,11 +4,22 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstddef>
+#include <initializer_list>
 
 #include "predict/draws.hpp"
 #include "slipfit/predict/prediction.hpp"
 
 namespace test {
+
+/// Gives the model such standard errors, each two of them correlated by 0.2.
+inline void set_errors(slipfit::PredictionModel& model, std::initializer_list<double> se) {
+  for (std::size_t i = 0; i < se.size(); ++i) {
+    for (std::size_t j = 0; j < se.size(); ++j) {
+      model.estimate.covariance[i][j] = se.begin()[i] * se.begin()[j] * (i == j ? 1.0 : 0.2);
+    }
+  }
+  model.has_covariance = true;
+}
 
 /// Moved by `step` in value i of ModelEstimate::covariance.
 inline slipfit::PredictionModel moved(slipfit::PredictionModel model, std::size_t i, double step) {

@@ -6,37 +6,30 @@
 #include <random>
 #include <vector>
 
+#include "differences.hpp"
 #include "slipfit/predict/derived.hpp"
 #include "slipfit/predict/single_speed.hpp"
 #include "slipfit/predict/speeds.hpp"
 
 using namespace slipfit;
+using test::predicted;
 
 namespace {
 
 constexpr double kQuantile = 1.959963984540054;  // of the normal distribution, 97.5 %
 
 /// zeta 0.05, V_c = 0.439 m/s.
-PredictionModel example() {
+PredictionModel coulomb_example() {
   PredictionModel model;
   model.estimate.stiffness_N_per_m = 1000.0;
   model.estimate.natural_frequency_rad_per_s = 200.0;
   model.estimate.damping_ratio = 0.05;
   model.estimate.friction_difference_N = 2.0;
-  const std::array<double, 4> se{0.002, 0.003, 0.0015, 0.008};
-  for (std::size_t i = 0; i < 4; ++i) {
-    for (std::size_t j = 0; j < 4; ++j) model.estimate.covariance[i][j] = se[i] * se[j] * (i == j ? 1.0 : 0.2);
-  }
+  test::set_errors(model, {0.002, 0.003, 0.0015, 0.008});
   model.estimate.degrees_of_freedom = 1e9;
   model.estimate.damping_identified = true;
-  model.has_covariance = true;
   model.kinetic_friction_N = Estimate{4.0, 0.01, {}, {}};
   return model;
-}
-
-PredictedMotion predicted(const PredictionModel& model, double speed_m_per_s) {
-  const std::array<double, 1> speeds{speed_m_per_s};
-  return predict_at(model, speeds).rows.front();
 }
 
 Motion exact_motion(const ModelEstimate& e, double kinetic_N, double speed_m_per_s) {
@@ -119,7 +112,7 @@ TEST_CASE("a prediction is the exact motion, for random parameters and speeds") 
 }
 
 TEST_CASE("standard errors of a prediction agree with central differences of the exact motion") {
-  PredictionModel model = example();
+  PredictionModel model = coulomb_example();
   model.kinetic_friction_N->standard_error = 0.0;
   for (const double speed : {0.001, 0.02, 0.1, 0.3}) {
     const PredictedMotion row = predicted(model, speed);
@@ -132,7 +125,7 @@ TEST_CASE("standard errors of a prediction agree with central differences of the
 }
 
 TEST_CASE("intervals are symmetric in the logarithm, and a sticking degree stays between 0 and 1") {
-  PredictionModel model = example();
+  PredictionModel model = coulomb_example();
   const PredictedMotion row = predicted(model, 0.02);
   const Estimate& period = row.period_s;
   CHECK(period.ci95->low * period.ci95->high == Approx(*period.value * *period.value));
@@ -149,12 +142,12 @@ TEST_CASE("intervals are symmetric in the logarithm, and a sticking degree stays
 
 TEST_CASE("at the recording's own speed a prediction is what the fit derives") {
   FitResult fit;
-  fit.estimate = example().estimate;
+  fit.estimate = coulomb_example().estimate;
   Conditions conditions;
   conditions.speed_m_per_s = 0.03;
   const Derived derived = derive_from_model(fit, conditions);
   const std::array<double, 1> speeds{0.03};
-  PredictionModel model = example();
+  PredictionModel model = coulomb_example();
   model.estimate = from_single_speed(fit, speeds.front());
   const Prediction prediction = predict_at(model, speeds);
   const auto same = [](const Estimate& a, const Estimate& b) {
@@ -173,7 +166,7 @@ TEST_CASE("at the recording's own speed a prediction is what the fit derives") {
 
 TEST_CASE("a measured spacing is held against the predicted one in units of its 95 % reach") {
   FitResult fit;
-  fit.estimate = example().estimate;
+  fit.estimate = coulomb_example().estimate;
   Conditions conditions;
   conditions.speed_m_per_s = 0.03;
   const auto score_at = [&](double measured_m) {
@@ -194,7 +187,7 @@ TEST_CASE("a measured spacing is held against the predicted one in units of its 
 
 TEST_CASE("the regime changes at the critical speed, with intervals that hold if it sticks within its uncertainty") {
   const std::array<double, 4> speeds{0.3, 0.435, 0.443, 0.6};
-  const Prediction prediction = predict_at(example(), speeds);
+  const Prediction prediction = predict_at(coulomb_example(), speeds);
   const Interval critical = *prediction.critical_speed_m_per_s.ci95;
   REQUIRE(critical.low < 0.435);
   REQUIRE(critical.high > 0.443);
@@ -217,7 +210,7 @@ TEST_CASE("the regime changes at the critical speed, with intervals that hold if
 }
 
 TEST_CASE("where the damping cannot be told from 0 the doubt begins where the margin says so") {
-  PredictionModel model = example();
+  PredictionModel model = coulomb_example();
   model.estimate.damping_ratio = 0.0;
   model.estimate.damping_identified = false;
   model.estimate.covariance[2][2] = 0.02 * 0.02;
@@ -247,7 +240,7 @@ TEST_CASE("a unit that only the last speed of a list or range has is that of all
 }
 
 TEST_CASE("where zeta may be 0 the end of stick-slip is told as a bound, by the interval of zeta") {
-  PredictionModel model = example();
+  PredictionModel model = coulomb_example();
   model.estimate.damping_ratio = 0.0;
   model.estimate.damping_identified = false;
   model.estimate.covariance = {};
@@ -307,7 +300,7 @@ TEST_CASE("no friction difference, no stick-slip: an answer") {
 }
 
 TEST_CASE("forces need the kinetic friction, and their interval is never too narrow") {
-  PredictionModel model = example();
+  PredictionModel model = coulomb_example();
   const PredictedMotion row = predicted(model, 0.02);
   model.kinetic_friction_N->standard_error = 0.0;
   const double model_part = *predicted(model, 0.02).force_peak_N.standard_error;
@@ -324,7 +317,7 @@ TEST_CASE("a covariance whose draws are mostly no models gives no crash and no n
   for (const std::size_t i : {0U, 1U, 2U, 3U}) {
     for (const double se : {30.0, 300.0, 3000.0, 1e100}) {
       CAPTURE(i, se);
-      PredictionModel model = example();
+      PredictionModel model = coulomb_example();
       model.estimate.covariance[i][i] = se * se;
       for (const double speed_m_per_s : {1e-3, 0.1, 0.44, 3.0}) {
         const PredictedMotion row = predicted(model, speed_m_per_s);  // zeta, in [0, 1), changes a period little

@@ -15,20 +15,16 @@ using test::predicted;
 
 namespace {
 
-PredictionModel example(double exponent) {
+PredictionModel trend_example(double exponent) {
   PredictionModel model;
   model.estimate = {350.0, 26.0, 0.03, 0.14, {}, 1e9, true};
   model.estimate.stiffness_trend = StiffnessTrend{exponent, 0.002};
-  const std::array<double, kModelValues> se{0.01, 0.01, 0.005, 0.02, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.01};
-  for (std::size_t i = 0; i < se.size(); ++i) {
-    for (std::size_t j = 0; j < se.size(); ++j) model.estimate.covariance[i][j] = se[i] * se[j] * (i == j ? 1.0 : 0.2);
-  }
-  model.has_covariance = true;
+  test::set_errors(model, {0.01, 0.01, 0.005, 0.02, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.01});
   return model;
 }
 
-PredictionModel ageing_example(double exponent) {
-  PredictionModel model = example(exponent);
+PredictionModel ageing_trend_example(double exponent) {
+  PredictionModel model = trend_example(exponent);
   model.estimate.ageing = Ageing{0.03, 0.5};
   model.estimate.reloading = Reloading{0.04, 1.5e-4};
   return model;
@@ -59,7 +55,7 @@ std::vector<SweepEntry> recorded(double exponent, std::uint64_t seed) {
 TEST_CASE("stiffness trend: the motion at a speed is that of the stiffness there, with the same mass") {
   const double exponent = GENERATE(-0.1, 0.07);
   for (const double speed : {0.0005, 0.002, 0.004}) {
-    const PredictionModel model = GENERATE_COPY(example(exponent), ageing_example(exponent));
+    const PredictionModel model = GENERATE_COPY(trend_example(exponent), ageing_trend_example(exponent));
     PredictionModel there = model;
     const double growth = std::pow(speed / 0.002, exponent);
     there.estimate.stiffness_N_per_m *= growth;
@@ -74,13 +70,13 @@ TEST_CASE("stiffness trend: the motion at a speed is that of the stiffness there
 }
 
 TEST_CASE("stiffness trend: intervals follow from derivatives that agree with differences") {
-  const PredictionModel model = GENERATE(example(0.07), example(-0.1), ageing_example(0.07));
+  const PredictionModel model = GENERATE(trend_example(0.07), trend_example(-0.1), ageing_trend_example(0.07));
   // The slope of the iteration is that of its last steps, which rounding of 1e-14 leaves uncertain by 1e-3 of itself.
   test::check_intervals(model, 1e-4);
 }
 
 TEST_CASE("stiffness trend: the band of a sweep holds at the speed that k belongs to, and grows beyond its speeds") {
-  PredictionModel model = example(0.07);
+  PredictionModel model = trend_example(0.07);
   model.estimate.reach = SpeedReach{0.0005, 0.0021, 0.1};
   const auto relative = [&](double speed) {
     const Estimate period = predicted(model, speed).period_s;

@@ -10,8 +10,10 @@
 #include "slipfit/predict/prediction.hpp"
 #include "slipfit/sweep.hpp"
 #include "speed_sweep.hpp"
+#include "support/holds.hpp"
 
 using namespace slipfit;
+using test::holds;
 
 namespace {
 
@@ -29,10 +31,6 @@ PredictionModel model_of(const SweepAnalysis& sweep) {
   model.estimate = *sweep.fit->result.estimate;
   model.has_covariance = true;
   return model;
-}
-
-bool holds(const Estimate& estimate, double truth) {
-  return estimate.ci95 && estimate.ci95->low <= truth && truth <= estimate.ci95->high;
 }
 
 }  // namespace

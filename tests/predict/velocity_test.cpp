@@ -13,28 +13,16 @@
 #include "slipfit/predict/prediction.hpp"
 
 using namespace slipfit;
+using test::predicted;
 
 namespace {
 
-PredictionModel example() {
+PredictionModel velocity_example() {
   PredictionModel model;
   model.estimate = {1000.0, 200.0, 0.08, 2.0, {}, 1e9, true, SpeedDependence{-4.0, -8.0}};
-  const std::array<double, kModelValues> se{0.002, 0.003, 0.002, 0.008, 0.1, 0.3};
-  for (std::size_t i = 0; i < se.size(); ++i) {
-    for (std::size_t j = 0; j < se.size(); ++j) model.estimate.covariance[i][j] = se[i] * se[j] * (i == j ? 1.0 : 0.2);
-  }
-  model.has_covariance = true;
+  test::set_errors(model, {0.002, 0.003, 0.002, 0.008, 0.1, 0.3});
   model.kinetic_friction_N = Estimate{4.0, 0.0, {}, {}};
   return model;
-}
-
-PredictedMotion predicted(const PredictionModel& model, double speed_m_per_s) {
-  const std::array<double, 1> speeds{speed_m_per_s};
-  return predict_at(model, speeds).rows.front();
-}
-
-double critical_speed(const PredictionModel& model) {
-  return *predict_at(model, std::vector<double>{}).critical_speed_m_per_s.value;
 }
 
 const std::array<Estimate PredictedMotion::*, 8> kQuantities{
@@ -80,7 +68,7 @@ TEST_CASE("with velocity-dependent friction a prediction is the motion that an i
 }
 
 TEST_CASE("friction that does not change with the speed is Coulomb friction: values, intervals, critical speed") {
-  PredictionModel coulomb = example();
+  PredictionModel coulomb = velocity_example();
   coulomb.estimate.speed_dependence.reset();
   for (auto& row : coulomb.estimate.covariance) row[4] = row[5] = 0.0;
   coulomb.estimate.covariance[4] = coulomb.estimate.covariance[5] = {};
@@ -109,7 +97,7 @@ TEST_CASE("friction that does not change with the speed is Coulomb friction: val
 }
 
 TEST_CASE("standard errors with velocity-dependent friction agree with central differences") {
-  const PredictionModel model = example();
+  const PredictionModel model = velocity_example();
   for (const double speed : {0.005, 0.05, 0.2, 0.4}) {
     const PredictedMotion row = predicted(model, speed);
     for (const auto quantity : kQuantities) {
@@ -120,17 +108,18 @@ TEST_CASE("standard errors with velocity-dependent friction agree with central d
     }
   }
   const Prediction prediction = predict_at(model, std::vector<double>{});
-  const double expected = test::standard_error_by_differences(model, 1e-4, critical_speed);
+  const double expected = test::standard_error_by_differences(
+      model, 1e-4, [](const PredictionModel& at) { return *test::critical_speed(at).value; });
   CHECK(*prediction.critical_speed_m_per_s.standard_error == Approx(expected).epsilon(1e-3));
 }
 
 TEST_CASE("stick-slip ends at the critical speed, with velocity-dependent friction too") {
   for (const SpeedDependence law :
        {SpeedDependence{-4.0, -8.0}, SpeedDependence{0.5, 2.0}, SpeedDependence{2.0, -3.0}}) {
-    PredictionModel model = example();
+    PredictionModel model = velocity_example();
     model.has_covariance = false;
     model.estimate.speed_dependence = law;
-    const double critical = critical_speed(model);
+    const double critical = *test::critical_speed(model).value;
     CAPTURE(law.slope_N_s_per_m, law.alpha_s_per_m, critical);
     CHECK(predicted(model, critical * (1.0 - 1e-9)).period_s.value);
     for (const double above : {1.0 + 1e-9, 1.1, 3.0}) CHECK_FALSE(predicted(model, critical * above).period_s.value);
@@ -138,7 +127,7 @@ TEST_CASE("stick-slip ends at the critical speed, with velocity-dependent fricti
 }
 
 TEST_CASE("the regime follows the damping of steady sliding and whether the slip sticks") {
-  PredictionModel model = example();
+  PredictionModel model = velocity_example();
   // zeta + slope at V / (2 sqrt(k m)) = 0.08 - 0.4 exp(-8 V) passes 0 at V = ln(5) / 8 = 0.2012 m/s.
   CHECK(predicted(model, 0.19).regime == Regime::StickSlip);
   CHECK(predicted(model, 0.22).regime == Regime::StickSlipBistable);
@@ -152,14 +141,14 @@ TEST_CASE("the regime follows the damping of steady sliding and whether the slip
 }
 
 TEST_CASE("a row says where the data cannot tell whether steady sliding is stable, and keeps its bands") {
-  const PredictedMotion row = predicted(example(), 0.2012);
+  const PredictedMotion row = predicted(velocity_example(), 0.2012);
   CHECK_THAT(row.note, Catch::Contains("steady sliding is stable"));
   CHECK(row.period_s.ci95);
-  CHECK(predicted(example(), 0.1).note.empty());
+  CHECK(predicted(velocity_example(), 0.1).note.empty());
 }
 
 TEST_CASE("bands hold 95 % of the motions that the covariance allows where alpha itself is hardly known") {
-  PredictionModel model = example();
+  PredictionModel model = velocity_example();
   auto& covariance = model.estimate.covariance;
   for (auto& row : covariance) row.fill(0.0);
   const std::array<double, 4> se{0.002, 0.003, 0.003, 0.01};

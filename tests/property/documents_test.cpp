@@ -301,8 +301,8 @@ TEST_CASE("documents of sweeps keep their promises, with members that show nothi
 TEST_CASE("speeds from 1e-300 to 1e300 m/s on the command line are numbers, and the document obeys its schema") {
   Schemas schemas;
   const test::ProgramResult result =
-      test::slipfit({"predict", "--stiffness", "1000", "--natural-frequency", "100", "--damping-ratio", "0.05",
-                     "--static-friction", "2", "--kinetic-friction", "1", "--speeds", "1e-300:1e300:50", "--json"});
+      test::run_slipfit({"predict", "--stiffness", "1000", "--natural-frequency", "100", "--damping-ratio", "0.05",
+                         "--static-friction", "2", "--kinetic-friction", "1", "--speeds", "1e-300:1e300:50", "--json"});
   REQUIRE(result.exit_code == 0);
   schemas.add_prediction(result.out);
   check_document(result.out);

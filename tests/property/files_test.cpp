@@ -21,8 +21,8 @@ using test::Scene;
 
 namespace {
 
-constexpr std::uint64_t kFirstSeed = 821;
-constexpr std::uint64_t kLastSeed = 826;
+constexpr std::uint64_t kFirstWritten = 821;
+constexpr std::uint64_t kLastWritten = 826;
 
 std::string rows(const Scene& scene, const std::function<std::string(double, double)>& row) {
   std::string text;
@@ -110,7 +110,7 @@ class CommaLocale {
 }  // namespace
 
 TEST_CASE("the same numbers in another spelling give the same result, bit for bit") {
-  const Scene scene = test::random_scene(GENERATE(range(kFirstSeed, kLastSeed + 1)));
+  const Scene scene = test::random_scene(GENERATE(range(kFirstWritten, kLastWritten + 1)));
   CAPTURE(scene.described);
   const Analysis expected = analyse_text(plain(scene), scene.conditions);
   for (const auto& [spelling, text] : spellings(scene)) {
@@ -123,7 +123,7 @@ TEST_CASE("the same numbers in another spelling give the same result, bit for bi
 }
 
 TEST_CASE("a force of the other sign is the same recording") {
-  const Scene scene = test::random_scene(GENERATE(range(kFirstSeed, kLastSeed + 1)));
+  const Scene scene = test::random_scene(GENERATE(range(kFirstWritten, kLastWritten + 1)));
   CAPTURE(scene.described);
   // Without the ramp from rest, where the sign of a force of nearly 0 is that of its noise.
   Scene sliding = scene;
@@ -136,7 +136,7 @@ TEST_CASE("a force of the other sign is the same recording") {
 }
 
 TEST_CASE("a known zero removes a constant added to the force") {
-  const Scene scene = test::random_scene(GENERATE(range(kFirstSeed, kLastSeed + 1)));
+  const Scene scene = test::random_scene(GENERATE(range(kFirstWritten, kLastWritten + 1)));
   const double zero_N = GENERATE(0.5, -3.0, 100.0);
   CAPTURE(scene.described, zero_N);
   Scene lifted = scene;
@@ -146,7 +146,7 @@ TEST_CASE("a known zero removes a constant added to the force") {
 }
 
 TEST_CASE("a program whose locale has a decimal comma gets the same document") {
-  const Scene scene = test::random_scene(kFirstSeed);
+  const Scene scene = test::random_scene(kFirstWritten);
   CAPTURE(scene.described);
   const test::TemporaryFolder folder;
   const std::string file = folder.file("scene.csv", replaced(plain(scene), "time_s,force_N", "time [ms],force [mN]"));

@@ -11,7 +11,7 @@
 namespace {
 
 void check_answer(const std::vector<std::string>& arguments) {
-  const test::ProgramResult result = test::slipfit(arguments);
+  const test::ProgramResult result = test::run_slipfit(arguments);
   CAPTURE(arguments, result.err);
   REQUIRE(result.exit_code == 0);
   const auto document = nlohmann::json::parse(result.out, nullptr, false);

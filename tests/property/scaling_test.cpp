@@ -10,8 +10,8 @@ using test::Scene;
 
 namespace {
 
-constexpr std::uint64_t kFirstSeed = 801;
-constexpr std::uint64_t kLastSeed = 808;
+constexpr std::uint64_t kFirstScaled = 801;
+constexpr std::uint64_t kLastScaled = 808;
 
 Scene with_force(Scene scene, double factor) {
   for (double& force : scene.force_N) force *= factor;
@@ -46,7 +46,7 @@ Scene half(const Scene& scene, Half which) {
 }  // namespace
 
 TEST_CASE("all forces times a: stiffness, friction and mass times a, all else as before") {
-  const std::uint64_t seed = GENERATE(range(kFirstSeed, kLastSeed + 1));
+  const std::uint64_t seed = GENERATE(range(kFirstScaled, kLastScaled + 1));
   const double a = GENERATE(0.001, 1024.0);
   const Scene scene = test::random_scene(seed);
   CAPTURE(scene.described, a);
@@ -56,7 +56,7 @@ TEST_CASE("all forces times a: stiffness, friction and mass times a, all else as
 }
 
 TEST_CASE("all times times b at the same speed: stiffness and natural frequency over b, mass times b") {
-  const std::uint64_t seed = GENERATE(range(kFirstSeed, kLastSeed + 1));
+  const std::uint64_t seed = GENERATE(range(kFirstScaled, kLastScaled + 1));
   const double b = GENERATE(0.01, 128.0);
   const Scene scene = test::random_scene(seed);
   CAPTURE(scene.described, b);
@@ -65,7 +65,7 @@ TEST_CASE("all times times b at the same speed: stiffness and natural frequency 
 }
 
 TEST_CASE("the speed times c for the same trace: stiffness, damping coefficient and mass over c") {
-  const std::uint64_t seed = GENERATE(range(kFirstSeed, kLastSeed + 1));
+  const std::uint64_t seed = GENERATE(range(kFirstScaled, kLastScaled + 1));
   const double c = GENERATE(0.001, 1000.0);
   const Scene scene = test::random_scene(seed);
   CAPTURE(scene.described, c);
@@ -77,7 +77,7 @@ TEST_CASE("the speed times c for the same trace: stiffness, damping coefficient 
 }
 
 TEST_CASE("a clock that starts at another time changes nothing") {
-  const std::uint64_t seed = GENERATE(range(kFirstSeed, kLastSeed + 1));
+  const std::uint64_t seed = GENERATE(range(kFirstScaled, kLastScaled + 1));
   const double start_s = GENERATE(-7.25, 1000.0);
   const Scene scene = test::random_scene(seed);
   CAPTURE(scene.described, start_s);
@@ -85,13 +85,13 @@ TEST_CASE("a clock that starts at another time changes nothing") {
 }
 
 TEST_CASE("half the sampling rate: the same parameters within their intervals") {
-  const Scene scene = test::random_scene(GENERATE(range(kFirstSeed, kLastSeed + 1)));
+  const Scene scene = test::random_scene(GENERATE(range(kFirstScaled, kLastScaled + 1)));
   CAPTURE(scene.described);
   test::check_agree(test::analyse(scene), test::analyse(every_second_sample(scene)));
 }
 
 TEST_CASE("both halves of a recording: the same parameters within their intervals") {
-  const Scene scene = test::random_scene(GENERATE(range(kFirstSeed, kLastSeed + 1)));
+  const Scene scene = test::random_scene(GENERATE(range(kFirstScaled, kLastScaled + 1)));
   CAPTURE(scene.described);
   test::check_agree(test::analyse(half(scene, Half::First)), test::analyse(half(scene, Half::Second)));
 }

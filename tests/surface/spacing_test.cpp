@@ -4,6 +4,7 @@
 #include <numbers>
 #include <random>
 
+#include "support/holds.hpp"
 #include "surface/filter.hpp"
 #include "surface/measure.hpp"
 #include "surface/spacing.hpp"
@@ -14,6 +15,7 @@ using slipfit::measure_surface;
 using slipfit::Profile;
 using slipfit::Surface;
 using slipfit::SurfaceStatus;
+using test::holds;
 
 namespace {
 
@@ -21,10 +23,6 @@ Surface measured(const Profile& profile) {
   auto surface = measure_surface(profile);
   REQUIRE(surface);
   return std::move(surface).value();
-}
-
-bool holds(const Estimate& estimate, double truth) {
-  return estimate.ci95 && estimate.ci95->low <= truth && truth <= estimate.ci95->high;
 }
 
 double half_width(const Estimate& estimate) {
