@@ -4,7 +4,6 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <array>
-#include <boost/math/distributions/normal.hpp>
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -230,8 +229,7 @@ ShortTest test_mass(const FitResult& fit, double stated_kg) {
   }
   const double ratio = *mass->value / stated_kg;
   const double relative_se = *mass->standard_error / *mass->value;
-  const boost::math::normal_distribution<double> normal;
-  const double p = 2.0 * boost::math::cdf(boost::math::complement(normal, std::abs(std::log(ratio)) / relative_se));
+  const double p = 2.0 * normal_above(std::abs(std::log(ratio)) / relative_se);
   return {TestKind::StatedMass, ratio, ratio * relative_se, p,
           fmt::format("k/w_n^2 is {:.3g} ± {:.1g} times the stated mass, a difference {}", ratio, ratio * relative_se,
                       seen(p))};

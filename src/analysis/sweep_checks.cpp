@@ -4,8 +4,6 @@
 #include <fmt/ranges.h>
 #include <algorithm>
 #include <array>
-#include <boost/math/statistics/linear_regression.hpp>
-#include <boost/math/statistics/univariate_statistics.hpp>
 #include <cmath>
 #include <optional>
 #include <tuple>
@@ -249,9 +247,8 @@ bool go_with_speed(std::span<const SweepEntry> entries, std::span<const Apart> r
     places.push_back(std::log(entries[one.recording].recording.conditions().speed_m_per_s));
     distances.push_back(one.distance);
   }
-  if (!(boost::math::statistics::variance(places) > 0.0)) return false;
-  const auto line = boost::math::statistics::simple_ordinary_least_squares_with_R_squared(places, distances);
-  return std::get<2>(line) > thresholds::kGoesWithSpeed;
+  const LineSums line = line_sums(places, distances);
+  return line.slope() * line.cross > thresholds::kGoesWithSpeed * line.scatter;
 }
 
 /// Returns the recording that differs most, if enough others agree.

@@ -1,6 +1,9 @@
 #include "core/statistics.hpp"
 
 #include <algorithm>
+#include <boost/math/distributions/chi_squared.hpp>
+#include <boost/math/distributions/fisher_f.hpp>
+#include <boost/math/distributions/normal.hpp>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 
@@ -48,17 +51,51 @@ double nth_smallest(std::span<double> values, std::size_t index) {
   return *at;
 }
 
-// Boost would work in long double, which takes its time, for digits that no interval needs.
-using StudentsT =
-    boost::math::students_t_distribution<double,
-                                         boost::math::policies::policy<boost::math::policies::promote_double<false>>>;
+namespace {
+
+namespace policies = boost::math::policies;
+
+// Boost would work in long double, which takes its time, for digits that no interval needs, and throw where an argument
+// is out of range, which counts as probability 0 or 1 here.
+using Quiet =
+    policies::policy<policies::domain_error<policies::ignore_error>, policies::pole_error<policies::ignore_error>,
+                     policies::overflow_error<policies::ignore_error>,
+                     policies::underflow_error<policies::ignore_error>,
+                     policies::evaluation_error<policies::ignore_error>, policies::promote_double<false>>;
+using StudentsT = boost::math::students_t_distribution<double, Quiet>;
+using Normal = boost::math::normal_distribution<double, Quiet>;
+using ChiSquared = boost::math::chi_squared_distribution<double, Quiet>;
+using FisherF = boost::math::fisher_f_distribution<double, Quiet>;
+
+template <class Distribution>
+double above(const Distribution& distribution, double x) {
+  return boost::math::cdf(boost::math::complement(distribution, x));
+}
+
+}  // namespace
 
 double t_quantile(double degrees_of_freedom, double probability) {
   return boost::math::quantile(StudentsT(std::max(1.0, degrees_of_freedom)), probability);
 }
 
 double t_chance(double t, double degrees_of_freedom) {
-  return 2.0 * boost::math::cdf(boost::math::complement(StudentsT(std::max(1.0, degrees_of_freedom)), std::abs(t)));
+  return 2.0 * above(StudentsT(std::max(1.0, degrees_of_freedom)), std::abs(t));
+}
+
+double normal_quantile(double probability) {
+  return boost::math::quantile(Normal(), probability);
+}
+
+double normal_above(double x) {
+  return above(Normal(), x);
+}
+
+double chi_squared_above(double x, double degrees_of_freedom) {
+  return above(ChiSquared(degrees_of_freedom), x);
+}
+
+double fisher_above(double ratio, double numerator, double denominator) {
+  return above(FisherF(numerator, denominator), ratio);
 }
 
 double students_factor(double degrees_of_freedom) {

@@ -128,6 +128,19 @@ double t_quantile(double degrees_of_freedom, double probability = 0.975);
 /// Returns the probability that chance alone gives a Student's t at least this far from 0, on either side.
 double t_chance(double t, double degrees_of_freedom);
 
+/// Returns the quantile of the standard normal distribution. `probability`: 0 < probability < 1.
+double normal_quantile(double probability);
+
+/// Returns the probability that a standard normal variable exceeds x.
+double normal_above(double x);
+
+/// Returns the probability that chi-squared with so many degrees of freedom (above 0) exceeds x (0 or more).
+double chi_squared_above(double x, double degrees_of_freedom);
+
+/// Returns the probability that Fisher's F exceeds `ratio` (0 or more), for the degrees of freedom (above 0) of its
+/// numerator and of its denominator.
+double fisher_above(double ratio, double numerator, double denominator);
+
 /// Returns the factor by which a standard error with few degrees of freedom, at least 2, grows so that kNormalQuantile
 /// of it covers 95 %.
 double students_factor(double degrees_of_freedom);

@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <boost/math/distributions/normal.hpp>
 #include <cmath>
 #include <utility>
 
@@ -133,7 +132,7 @@ Residual residual_of(const DampedFit& chosen, const Quality& quality) {
   }
   if (uncertainty.lag1_pairs > 2.0) {
     const double z = std::abs(uncertainty.lag1_correlation) * std::sqrt(uncertainty.lag1_pairs);
-    residual.whiteness_p = 2.0 * boost::math::cdf(boost::math::complement(boost::math::normal(), z));
+    residual.whiteness_p = 2.0 * normal_above(z);
   }
   return residual;
 }

@@ -3,7 +3,6 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <array>
-#include <boost/math/distributions/normal.hpp>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
@@ -162,10 +161,9 @@ std::optional<ModelEstimate> moved_model(const ModelEstimate& model, const Vecto
 
 /// Normal numbers, a row for each value of a model: every row has the same ones, evenly spread, in another order.
 MatrixXd even_normals(Index count) {
-  const boost::math::normal_distribution<double> normal;
   VectorXd sorted(count);
   for (Index i = 0; i < count; ++i) {
-    sorted(i) = boost::math::quantile(normal, (static_cast<double>(i) + 0.5) / static_cast<double>(count));
+    sorted(i) = normal_quantile((static_cast<double>(i) + 0.5) / static_cast<double>(count));
   }
   std::mt19937_64 generator(1);
   MatrixXd numbers(static_cast<Index>(kModelValues), count);

@@ -2,8 +2,6 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
-#include <boost/math/special_functions/beta.hpp>
-#include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -19,19 +17,9 @@ namespace {
 // Half widths of the lines over their frequency: a period that scatters by s makes the fundamental 2 pi s^2 wide.
 constexpr std::array kWidths{0.0, 0.01, 0.03, 0.08, 0.16};
 
-// Boost reports nothing by exceptions here: out of range counts as probability 0 or 1.
-using Quiet =
-    boost::math::policies::policy<boost::math::policies::domain_error<boost::math::policies::ignore_error>,
-                                  boost::math::policies::pole_error<boost::math::policies::ignore_error>,
-                                  boost::math::policies::overflow_error<boost::math::policies::ignore_error>,
-                                  boost::math::policies::underflow_error<boost::math::policies::ignore_error>,
-                                  boost::math::policies::evaluation_error<boost::math::policies::ignore_error>,
-                                  boost::math::policies::promote_double<false>>;
-
 /// -ln P(line / gaps > ratio) for two independent gamma variates of mean one.
 double surprise(double ratio, double line_shape, double gap_shape) {
-  const double y = gap_shape / (gap_shape + line_shape * ratio);
-  const double p = boost::math::ibeta(gap_shape, line_shape, y, Quiet());
+  const double p = fisher_above(ratio, 2.0 * line_shape, 2.0 * gap_shape);
   return p > 1e-300 ? -std::log(std::min(1.0, p)) : 690.0;
 }
 
@@ -44,7 +32,7 @@ double comb_probability(const Comb& comb, std::size_t harmonics, const std::vect
     spread += 1.0 + 0.5 / comb.gap_shape[h];
   }
   spread /= static_cast<double>(harmonics);
-  return boost::math::gamma_q(static_cast<double>(harmonics) / spread, sum / spread, Quiet());
+  return chi_squared_above(2.0 * sum / spread, 2.0 * static_cast<double>(harmonics) / spread);
 }
 
 /// Independent places to look at: two to a resolution for sharp lines (harmonics move faster than the fundamental), two

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <boost/math/special_functions/beta.hpp>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -96,8 +95,7 @@ std::vector<Component> mixture_of(std::span<const double> distances, const std::
 }
 
 double student_below(double t, double freedom) {
-  using Plain = boost::math::policies::policy<boost::math::policies::promote_double<false>>;  // 1e-13 will do
-  const double tail = 0.5 * boost::math::ibeta(0.5 * freedom, 0.5, freedom / (freedom + t * t), Plain());
+  const double tail = 0.5 * t_chance(t, freedom);
   return t < 0.0 ? tail : 1.0 - tail;
 }
 

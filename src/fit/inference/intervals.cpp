@@ -1,7 +1,6 @@
 #include "fit/inference/intervals.hpp"
 
 #include <algorithm>
-#include <boost/math/distributions/normal.hpp>
 #include <cmath>
 
 namespace slipfit::fit {
@@ -31,10 +30,9 @@ OneSided one_sided(const Spread& spread, const Change& change) {
 
 Interval damping_interval(double zeta, double se, double quantile) {
   if (zeta - quantile * se > 0.0) return {zeta - quantile * se, zeta + quantile * se};
-  const boost::math::normal_distribution<double> normal(zeta, se);
-  const double above_zero = boost::math::cdf(boost::math::complement(normal, 0.0));
+  const double above_zero = normal_above(-zeta / se);
   if (!(above_zero > 1e-12)) return {0.0, se};
-  return {0.0, boost::math::quantile(boost::math::complement(normal, 0.05 * above_zero))};
+  return {0.0, zeta - se * normal_quantile(0.05 * above_zero)};
 }
 
 Interval lengthened_damping(const Interval& interval, const Spread& spread) {

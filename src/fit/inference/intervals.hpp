@@ -1,7 +1,6 @@
 #pragma once
 
 #include <ceres/jet.h>
-#include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 #include <functional>
 #include <optional>
@@ -121,8 +120,7 @@ inline WeightedMean weighted_mean(const std::vector<Measured>& all) {
   if (all.size() < 2) return mean;
   double square = 0.0;
   for (const Measured& one : all) square += std::pow((one.value - mean.value) / one.standard_error, 2);
-  const boost::math::chi_squared_distribution<double> by_chance(static_cast<double>(all.size()) - 1.0);
-  mean.chance = boost::math::cdf(boost::math::complement(by_chance, square));
+  mean.chance = chi_squared_above(square, static_cast<double>(all.size()) - 1.0);
   return mean;
 }
 

@@ -1,12 +1,12 @@
 #include "fit/selection/finish.hpp"
 
 #include <algorithm>
-#include <boost/math/distributions/fisher_f.hpp>
 #include <cmath>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include "core/statistics.hpp"
 #include "core/thresholds.hpp"
 #include "fit/inference/smoothing.hpp"
 #include "fit/inference/uncertainty.hpp"
@@ -42,8 +42,7 @@ DampedFit with_joined_ramps(DampedFit loose) {
   if (!is_regular(joined.uncertainty, joined.held)) return loose;
   const double freedom = std::max(1.0, loose.uncertainty.degrees_of_freedom);
   const double ratio = (joined.uncertainty.chi2 - loose.uncertainty.chi2) / ramps / (loose.uncertainty.chi2 / freedom);
-  const boost::math::fisher_f_distribution<double> chance(ramps, freedom);
-  const bool agrees = ratio <= 0.0 || boost::math::cdf(boost::math::complement(chance, ratio)) > thresholds::kProven;
+  const bool agrees = ratio <= 0.0 || fisher_above(ratio, ramps, freedom) > thresholds::kProven;
   return agrees ? joined : loose;
 }
 

@@ -1,7 +1,6 @@
 #include "fit/sweep/ageing_line.hpp"
 
 #include <algorithm>
-#include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 #include <optional>
 #include <vector>
@@ -112,9 +111,8 @@ VectorXd variances_of(const SweepSolution& solution) {
 /// Returns whether the residuals of a line with two parameters are within the recordings' own errors.
 bool within_own_errors(const VectorXd& residuals, const VectorXd& variances) {
   if (residuals.size() < 3) return true;
-  const boost::math::chi_squared_distribution<double> by_chance(static_cast<double>(residuals.size()) - 2.0);
   const double sum = (residuals.array().square() / variances.array()).sum();
-  return sum < boost::math::quantile(by_chance, 1.0 - thresholds::kAgeingChance);
+  return chi_squared_above(sum, static_cast<double>(residuals.size()) - 2.0) > thresholds::kAgeingChance;
 }
 
 /// A straight line of least squares over ln V.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <boost/math/distributions/fisher_f.hpp>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -239,8 +238,7 @@ class SweepFitter {
   static double chance(double gain, double extra, const SweepSolution& rich) {
     const double ratio = gain / extra / (rich.chi2 / rich.degrees_of_freedom);
     if (!(ratio > 0.0)) return 1.0;
-    const boost::math::fisher_f_distribution<double> by_chance(extra, rich.degrees_of_freedom);
-    return boost::math::cdf(boost::math::complement(by_chance, ratio));
+    return fisher_above(ratio, extra, rich.degrees_of_freedom);
   }
 
   /// Sets the starting values to the medians of the recordings' own fits.
