@@ -1,268 +1,93 @@
 #include "slipfit/pipeline.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cstddef>
-#include <functional>
 #include <optional>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
-#include "analysis/audit.hpp"
 #include "analysis/classify.hpp"
-#include "analysis/conclusions.hpp"
+#include "analysis/conclude.hpp"
 #include "analysis/detect.hpp"
 #include "analysis/estimate.hpp"
-#include "analysis/ranges.hpp"
 #include "analysis/ring_down.hpp"
-#include "analysis/rules.hpp"
 #include "analysis/sweep_checks.hpp"
-#include "core/thresholds.hpp"
-#include "core/unknown.hpp"
-#include "fit/cycle/cycle_data.hpp"
-#include "fit/report/recording_findings.hpp"
-#include "slipfit/surface/comparison.hpp"
+#include "slipfit/fit/sweep.hpp"
 #include "slipfit/sweep.hpp"
+
+// The method. detect() finds the stretch of a recording that slides and its slips; estimate() finds their frequency and
+// fits the model to them; classify() says which kind of motion they are; conclude() works out all that follows. The
+// recordings of a sweep take these steps one by one; then fit_sweep() fits one set of parameters to all of them.
 
 namespace slipfit {
 namespace {
 
-/// The fit as far as its numbers hold: no parameters where the motion is not the model's, no natural
-/// frequency where the slips are not inertial, nothing identified where the cycles keep in step with the mains.
-std::optional<FitResult> qualify(std::optional<FitResult> fit, const Classification& classification,
-                                 const Analysis& analysis, double duration_s) {
-  if (!fit) return fit;
-  if (!classification.model_fits) return fit::without_parameters(*std::move(fit));
-  const std::optional<double>& ring_Hz = analysis.transients.ring_down_frequency_Hz.value;
-  const std::optional<double>& slips_Hz = analysis.frequency.quoted.value;
-  const std::optional<double>& drop = analysis.cycles.force_drop;
-  if (ring_Hz && drop) fit = fit::qualified_by_ring_down(*std::move(fit), *ring_Hz, *drop);
-  if (slips_Hz) fit = fit::qualified_by_mains(*std::move(fit), *slips_Hz, duration_s);
-  return fit;
-}
-
-/// Adds the comparison of the worn track with the spacing V / f of the force.
-Derived with_worn_track(Derived derived, const Conditions& conditions) {
-  if (!conditions.worn_track) return derived;
-  SpacingComparison compared = compare_spacings(derived.pattern_spacing_m, conditions.worn_track->spacing_m);
-  derived.surface_spacing_m = conditions.worn_track->spacing_m;
-  derived.surface_ratio = std::move(compared.ratio);
-  derived.surface_En = std::move(compared.En);
-  derived.surface_verdict = std::move(compared.verdict);
-  return derived;
-}
-
-/// Returns the quantities that follow from the fit and the measurement at the recording's own speed.
-Derived derive(const Recording& recording, const Analysis& analysis) {
-  Derived derived;
-  if (analysis.fit) derived = derive_from_model(*analysis.fit, recording.conditions());
-  if (!analysis.fit && recording.conditions().measured_spacing_m) {
-    derived.measured_spacing_En = unknown("needs a fitted model");
-  }
-  derived = with_measured_spacing(std::move(derived), recording, analysis.frequency, analysis.cycles);
-  return in_range(with_worn_track(std::move(derived), recording.conditions()));
-}
-
-void append(Warnings& warnings, const Warnings& more) {
-  warnings.insert(warnings.end(), more.begin(), more.end());
-}
-
-/// The analysis with the values that contradict each other not identified, and what follows from them derived anew.
-Analysis audited(const Recording& recording, Analysis analysis) {
-  if (!analysis.fit) return analysis;
-  analysis.audit = audit_of(recording, analysis, *analysis.fit);
-  const auto contradicts = [](const AuditPair& pair) { return pair.contradicts; };
-  if (std::none_of(analysis.audit.begin(), analysis.audit.end(), contradicts)) return analysis;
-  analysis.fit = with_audit(*std::move(analysis.fit), analysis.audit);
-  analysis.frequency = with_audit(std::move(analysis.frequency), analysis.audit);
-  analysis.derived = derive(recording, analysis);
-  return analysis;
-}
-
-/// The fitted curve counts its samples in the part that slides: converted to samples of the whole recording.
-std::optional<FitResult> curve_in_recording_samples(std::optional<FitResult> fit, const Detected& detected) {
-  if (!fit) return fit;
-  for (CurvePoint& point : fit->curve) point.sample = detected.sample_of(point.sample);
-  return fit;
-}
-
-std::optional<RingDown> ring_down_of(const Transients& transients) {
-  if (!transients.ring_down_frequency_Hz.value) return std::nullopt;
-  return RingDown{transients.ring_down_frequency_Hz, transients.ring_down_damping_ratio};
-}
-
-/// Everything that follows from slips, spectrum and fit of the stretch that slides.
-Analysis conclude(const Detected& detected, Estimates estimates, Classification classification) {
-  const Recording& recording = detected.recording();
-  const Segmentation& slips = estimates.signals.segmentation;
-  const FitResult* const fit = estimates.fit ? &*estimates.fit : nullptr;
-  Analysis analysis;
-  analysis.sliding = {recording.time_s().front(), recording.time_s().back()};
-  analysis.quality = detected.whole_quality;
-  analysis.frequency = in_range(
-      quote_frequency(recording, estimates.signals, classification, classification.model_fits ? fit : nullptr));
-  analysis.cycles = in_range(summarise_cycles(recording, slips, fit));
-  if (estimates.drive) {
-    analysis.drive = {estimates.drive->recording.conditions().speed_m_per_s, estimates.drive->share_in_slips};
-    analysis.cycles.stick_stiffness = estimates.drive->stiffness_N_per_m;
-  }
-  if (analysis.cycles.period_cv) {
-    analysis.cycles.regularity = regularity_of(analysis.cycles, analysis.frequency.quoted, recording.conditions());
-  }
-  analysis.cycle_table = fit != nullptr ? fit->cycles : fit::detected_cycles(recording, slips);
-  analysis.transients = in_range(find_transients(detected, classification.motion));
-  analysis.fit = qualify(std::move(estimates.fit), classification, analysis, recording.duration_s());
-  analysis.motion = classification.motion;
-  analysis.motion_reason = std::move(classification.reason);
-  analysis.coefficients = in_range(find_coefficients(detected, analysis));
-  analysis.derived = derive(recording, analysis);
-  analysis.tests = run_short_tests(recording, analysis);
-  analysis = audited(recording, std::move(analysis));
-  analysis.warnings = collect_warnings({detected, slips, analysis});
-  if (analysis.fit) analysis.fit = limited_by(analysis.warnings, *std::move(analysis.fit));
-  analysis.fit = curve_in_recording_samples(std::move(analysis.fit), detected);
-  analysis.timing.frequency_s = detected.seconds + estimates.frequency_s;
-  analysis.timing.fit_s = estimates.fit_s;
-  return analysis;
-}
-
-/// Steady sliding has no slips: its falls, which comparisons of several speeds look at, are not reported as such.
-Analysis without_falls(Analysis analysis) {
-  if (analysis.motion != MotionClass::SteadySliding) return analysis;
-  const Estimate none = unknown("steady sliding has no slips");
-  analysis.cycles = CycleStatistics{};
-  analysis.cycles.stick_stiffness = analysis.frequency.counted = none;
-  for (Cycle& cycle : analysis.cycle_table) cycle.used = false;
-  return analysis;
-}
-
-/// The warnings of the sweep and of the recordings in its fit.
-Warnings all_warnings(const SweepAnalysis& sweep) {
-  Warnings warnings = sweep.warnings;
-  for (std::size_t i = 0; i < sweep.recordings.size(); ++i) {
-    if (sweep.roles[i] == SweepRole::Cycles) append(warnings, sweep.recordings[i].warnings);
-  }
-  return warnings;
-}
-
-/// The sweep with the shared values that contradict what one of its recordings shows not identified.
-SweepAnalysis audited(std::span<const SweepEntry> entries, SweepAnalysis sweep) {
-  std::vector<AuditPair> shared;
-  for (std::size_t i = 0; i < entries.size(); ++i) {
-    std::vector<AuditPair>& audit = sweep.audits.emplace_back();
-    if (sweep.roles[i] == SweepRole::Cycles) audit = joint_audit_of(entries[i], sweep.recordings[i], sweep.fit->result);
-    shared.insert(shared.end(), audit.begin(), audit.end());
-  }
-  sweep.fit->result = with_audit(std::move(sweep.fit->result), shared);
-  append(sweep.fit->result.warnings, warn_of(shared));
-  return sweep;
-}
-
-/// A recording of a sweep on its own.
-struct Member {
+struct Steps {
   Detected detected;
   Estimates estimates;
   Analysis analysis;
 };
 
-/// `options`: of the recording's own fit.
-Member analyze_member(const Recording& recording, const FitOptions& options) {
-  Member member{detect(recording), {}, {}};
+Steps take_steps(const Recording& recording, const FitOptions& options) {
+  Steps steps{detect(recording), {}, {}};
   FitOptions informed = options;
-  informed.ring_down = ring_down_after_release(member.detected);
-  member.estimates = estimate(member.detected, informed);
-  const Classification classification = classify(member.detected.recording(), member.estimates);
-  member.analysis = conclude(member.detected, member.estimates, classification);
-  return member;
+  informed.ring_down = ring_down_after_release(steps.detected);
+  steps.estimates = estimate(steps.detected, informed);
+  Classification classification = classify(steps.detected.recording(), steps.estimates);
+  steps.analysis = conclude(steps.detected, steps.estimates, std::move(classification));
+  return steps;
+}
+
+/// Returns what the fit of a sweep sees of a recording. It refers to `steps`.
+SweepRecording seen_by_sweep(const Steps& steps, const Transients& transients, SweepRole role) {
+  const Signals& signals = steps.estimates.signals;
+  const std::optional<SteadyDrive>& drive = steps.estimates.drive;
+  std::optional<RingDown> ring_down;
+  if (transients.ring_down_frequency_Hz.value) {
+    ring_down = RingDown{transients.ring_down_frequency_Hz, transients.ring_down_damping_ratio};
+  }
+  return {drive ? drive->recording : steps.detected.recording(), signals.quality, signals.segmentation, role,
+          ring_down};
 }
 
 }  // namespace
-
-std::optional<Error> missing_data(const Recording& recording) {
-  const std::span<const double> force = recording.force();
-  const std::string& file = recording.provenance().file;
-  const std::string place = file.empty() ? "the recording" : file;
-  if (force.size() < thresholds::kFewestSamples) {
-    return Error{"too_few_samples", fmt::format("{}: {} samples show no motion, at least {} are needed; record longer",
-                                                place, force.size(), thresholds::kFewestSamples)};
-  }
-  if (std::ranges::adjacent_find(force, std::not_equal_to<>()) != force.end()) return std::nullopt;
-  return Error{"force_constant",
-               fmt::format("{}: the force is {:.6g} in all {} samples: no data; choose another column with "
-                           "--force-column, or check the sensor",
-                           place, force.front(), force.size())};
-}
-
-Result<Recording> with_data(Result<Recording> recording) {
-  if (!recording) return recording;
-  if (std::optional<Error> error = missing_data(recording.value())) return *std::move(error);
-  return recording;
-}
 
 Analysis analyze(const Recording& recording) {
   const Detected detected = detect(recording);
   Estimates estimates = estimate_frequency(detected);
   Classification classification = classify_by_shape(detected.recording(), estimates.signals);
-  return without_falls(conclude(detected, std::move(estimates), std::move(classification)));
+  return without_falls(conclude(detected, estimates, std::move(classification)));
 }
 
 Analysis analyze_and_fit(const Recording& recording, const FitOptions& options) {
-  const Detected detected = detect(recording);
-  FitOptions informed = options;
-  informed.ring_down = ring_down_after_release(detected);
-  Estimates estimates = estimate(detected, informed);
-  Classification classification = classify(detected.recording(), estimates);
-  Analysis analysis = without_falls(conclude(detected, std::move(estimates), std::move(classification)));
+  Analysis analysis = without_falls(take_steps(recording, options).analysis);
   analysis.asked = AskedFit{options.tier, options.held};
   return analysis;
 }
 
 SweepAnalysis analyze_sweep(std::span<const SweepEntry> entries, const FitOptions& options) {
   SweepAnalysis sweep;
-  std::vector<Member> members;
-  std::vector<SweepRecording> recordings;
-  members.reserve(entries.size());  // the recordings of the fit refer to them
+  std::vector<Steps> steps;
+  steps.reserve(entries.size());  // the recordings of the fit refer to them
   FitOptions own;
   own.curve = options.curve;
   for (const SweepEntry& entry : entries) {
     if (options.notify_step) {
-      options.notify_step("analysing recording " + std::to_string(members.size() + 1) + " of " +
+      options.notify_step("analysing recording " + std::to_string(steps.size() + 1) + " of " +
                           std::to_string(entries.size()));
     }
-    Member& member = members.emplace_back(analyze_member(entry.recording, own));
-    sweep.recordings.push_back(std::move(member.analysis));
+    steps.push_back(take_steps(entry.recording, own));
+    sweep.recordings.push_back(std::move(steps.back().analysis));
     sweep.recordings.back().asked = AskedFit{};
   }
   sweep.asked = AskedFit{options.tier, options.held};
   sweep.roles = roles_of(entries, sweep.recordings);
-  for (std::size_t i = 0; i < members.size(); ++i) {
-    const Signals& signals = members[i].estimates.signals;
-    const std::optional<SteadyDrive>& drive = members[i].estimates.drive;
-    const Recording& recording = drive ? drive->recording : members[i].detected.recording();
-    recordings.push_back({recording, signals.quality, signals.segmentation, sweep.roles[i],
-                          ring_down_of(sweep.recordings[i].transients)});
+  std::vector<SweepRecording> seen;
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    seen.push_back(seen_by_sweep(steps[i], sweep.recordings[i].transients, sweep.roles[i]));
   }
-  sweep.fit = in_range(fit_sweep(recordings, options));
-  if (sweep.fit) sweep = audited(entries, std::move(sweep));
-  const FitResult result = sweep.fit ? sweep.fit->result : FitResult{};
-  sweep.derived = in_range(derive_from_sweep(result, observed_end(entries, sweep.recordings, result)));
-  sweep.fit_reason = describe_roles(sweep.roles);
-  sweep.repeats = compare_repeats(entries, sweep.recordings);
-  sweep.warnings = check_frequency_follows_speed(entries, sweep.recordings);
-  sweep.recordings = without_passing_patterns(std::move(sweep.recordings), sweep.warnings);
-  append(sweep.warnings, check_level_repeats(entries, sweep.recordings));
-  append(sweep.warnings, check_duplicates(entries));
-  append(sweep.warnings, check_resolution(entries, sweep.recordings, sweep.roles));
-  if (sweep.fit) {
-    append(sweep.warnings, check_agreement(entries, sweep.recordings, *sweep.fit));
-    append(sweep.warnings, sweep.fit->result.warnings);
-    sweep.fit->result = limited_by(by_effect(all_warnings(sweep)), std::move(sweep.fit->result));
-  }
-  sweep.warnings = by_effect(std::move(sweep.warnings));
-  for (Analysis& analysis : sweep.recordings) analysis = without_falls(std::move(analysis));
-  return sweep;
+  sweep.fit = fit_sweep(seen, options);
+  return conclude_sweep(entries, std::move(sweep));
 }
 
 SweepAnalysis analyze_each(std::span<const SweepEntry> entries) {

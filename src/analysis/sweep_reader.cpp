@@ -1,4 +1,4 @@
-#include "io/recording_reader.hpp"
+#include "io/kept_recordings.hpp"
 #include "slipfit/io/manifest.hpp"
 #include "slipfit/io/recording_reader.hpp"
 #include "slipfit/pipeline.hpp"

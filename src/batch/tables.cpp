@@ -7,7 +7,7 @@
 #include "core/csv_line.hpp"
 #include "core/thrown_error.hpp"
 #include "io/cells.hpp"
-#include "report/quantities.hpp"
+#include "report/quantity_rows.hpp"
 #include "slipfit/core/printable.hpp"
 #include "slipfit/fit/parameter.hpp"
 

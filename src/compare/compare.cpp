@@ -11,7 +11,7 @@
 #include "core/unknown.hpp"
 #include "report/document/check_document.hpp"
 #include "report/document/json_node.hpp"
-#include "report/quantities.hpp"
+#include "report/quantity_rows.hpp"
 
 namespace slipfit {
 

@@ -1,4 +1,4 @@
-#include "io/manifest.hpp"
+#include "slipfit/io/manifest.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -15,10 +15,10 @@
 #include "core/thrown_error.hpp"
 #include "core/word_list.hpp"
 #include "io/cells.hpp"
+#include "io/manifest_columns.hpp"
 #include "io/message.hpp"
 #include "io/text_lines.hpp"
 #include "io/text_source.hpp"
-#include "slipfit/io/manifest.hpp"
 
 namespace slipfit {
 
@@ -571,10 +571,9 @@ std::optional<Error> set_number(ManifestEntry& entry, const ManifestColumn& colu
                                 bool decimal_comma) {
   const Result<double> number = number_in(cell, entry, column, decimal_comma);
   if (!number) return number.error();
-  using Bound = ManifestField::Bound;
-  const Bound bound = column.field->bound;
-  const bool is_too_low = bound == Bound::AboveZero && !(number.value() > 0.0);
-  if (is_too_low || (bound == Bound::NotNegative && number.value() < 0.0)) {
+  const ManifestField::Bound bound = column.field->bound;
+  const bool is_too_low = bound == ManifestField::Bound::AboveZero && !(number.value() > 0.0);
+  if (is_too_low || (bound == ManifestField::Bound::NotNegative && number.value() < 0.0)) {
     return Error{"out_of_range", fmt::format("'{}' is {} zero", printable(cell), is_too_low ? "not above" : "below")};
   }
   if (!std::isfinite(number.value())) return refusal("bad_number", cell, "a finite number");

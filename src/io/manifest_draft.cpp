@@ -1,4 +1,4 @@
-#include "io/manifest_draft.hpp"
+#include "slipfit/io/manifest_draft.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -10,11 +10,11 @@
 
 #include "core/csv_line.hpp"
 #include "core/word_list.hpp"
+#include "io/file_name.hpp"
 #include "io/message.hpp"
 #include "slipfit/core/printable.hpp"
 #include "slipfit/core/units.hpp"
 #include "slipfit/io/file_info.hpp"
-#include "slipfit/io/manifest_draft.hpp"
 
 namespace slipfit::reading {
 

@@ -1,14 +1,14 @@
-#include "io/recording_reader.hpp"
+#include "slipfit/io/recording_reader.hpp"
 
 #include <fmt/format.h>
 #include <utility>
 
 #include "core/thrown_error.hpp"
 #include "io/build.hpp"
+#include "io/kept_recordings.hpp"
 #include "io/message.hpp"
 #include "io/opened_file.hpp"
 #include "io/part.hpp"
-#include "slipfit/io/recording_reader.hpp"
 
 namespace slipfit {
 

@@ -1,4 +1,4 @@
-#include "predict/plan.hpp"
+#include "slipfit/predict/plan.hpp"
 
 #include <ceres/jet.h>
 #include <algorithm>
@@ -10,7 +10,7 @@
 #include "model/slip_jets.hpp"
 #include "predict/critical.hpp"
 #include "predict/draws.hpp"
-#include "slipfit/predict/plan.hpp"
+#include "predict/information.hpp"
 
 namespace slipfit::predict {
 

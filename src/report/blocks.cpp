@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "report/names.hpp"
-#include "report/quantities.hpp"
+#include "report/quantity_rows.hpp"
 #include "slipfit/core/printable.hpp"
 
 namespace slipfit {

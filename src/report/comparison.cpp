@@ -1,4 +1,4 @@
-#include "report/comparison.hpp"
+#include "slipfit/report/comparison.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -6,11 +6,11 @@
 #include <array>
 
 #include "core/unknown.hpp"
+#include "report/comparison_rows.hpp"
 #include "report/format.hpp"
 #include "report/json_sections.hpp"
 #include "report/text_sections.hpp"
 #include "slipfit/core/printable.hpp"
-#include "slipfit/report/comparison.hpp"
 #include "slipfit/report/text.hpp"
 
 namespace slipfit {

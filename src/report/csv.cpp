@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "report/format.hpp"
-#include "report/quantities.hpp"
+#include "report/quantity_rows.hpp"
 #include "slipfit/core/printable.hpp"
 
 namespace slipfit {

@@ -8,7 +8,7 @@
 
 #include "report/format.hpp"
 #include "report/names.hpp"
-#include "report/quantities.hpp"
+#include "report/quantity_rows.hpp"
 #include "slipfit/core/printable.hpp"
 #include "slipfit/core/range.hpp"
 

@@ -10,7 +10,7 @@
 #include "report/format.hpp"
 #include "report/json_sections.hpp"
 #include "report/names.hpp"
-#include "report/quantities.hpp"
+#include "report/quantity_rows.hpp"
 #include "report/text_sections.hpp"
 #include "slipfit/core/printable.hpp"
 #include "slipfit/report/text.hpp"

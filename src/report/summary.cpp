@@ -14,7 +14,7 @@
 #include "report/document/check_document.hpp"
 #include "report/document/json_node.hpp"
 #include "report/names.hpp"
-#include "report/quantities.hpp"
+#include "report/quantity_rows.hpp"
 #include "report/text_sections.hpp"
 #include "slipfit/core/printable.hpp"
 #include "slipfit/report/sweep.hpp"

@@ -8,7 +8,7 @@
 #include "core/unknown.hpp"
 #include "report/blocks.hpp"
 #include "report/json_sections.hpp"
-#include "report/quantities.hpp"
+#include "report/quantity_rows.hpp"
 #include "report/text_sections.hpp"
 
 namespace slipfit {

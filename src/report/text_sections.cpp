@@ -8,7 +8,7 @@
 #include "analysis/rules.hpp"
 #include "report/blocks.hpp"
 #include "report/names.hpp"
-#include "report/quantities.hpp"
+#include "report/quantity_rows.hpp"
 #include "slipfit/core/printable.hpp"
 #include "slipfit/report/sweep.hpp"
 #include "slipfit/report/text.hpp"

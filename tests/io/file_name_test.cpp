@@ -1,4 +1,4 @@
-#include "io/manifest_draft.hpp"
+#include "io/file_name.hpp"
 
 #include "slipfit/io/manifest_draft.hpp"
 #include "temp_file.hpp"

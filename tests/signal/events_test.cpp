@@ -4,8 +4,9 @@
 
 #include <cmath>
 #include <numbers>
-#include <numeric>
+#include <span>
 
+#include "core/statistics.hpp"
 #include "signal/stretch.hpp"
 #include "slipfit/signal/cycles.hpp"
 #include "traces.hpp"
@@ -135,7 +136,7 @@ TEST_CASE("slips on the scale of the whole are those that a part shows by itself
 }
 
 TEST_CASE("noise as smooth as that behind a filter makes no slips on the slopes of the sticks") {
-  const int samples = GENERATE(4, 8, 16);
+  const auto samples = GENERATE(as<std::size_t>(), 4, 8, 16);
   CAPTURE(samples);
   traces::Generator generator(3);
   Scene scene = saw(generator);
@@ -143,7 +144,8 @@ TEST_CASE("noise as smooth as that behind a filter makes no slips on the slopes 
   for (int pass = 0; pass < 4; ++pass) {  // four means in a row fall off as a filter of fourth order does
     std::vector<double> filtered = scene.force;
     for (std::size_t i = 0; i + samples <= filtered.size(); ++i) {
-      filtered[i] = std::accumulate(scene.force.begin() + i, scene.force.begin() + i + samples, 0.0) / samples;
+      const std::span<const double> window(scene.force.data() + i, samples);
+      filtered[i] = mean_of(window);
     }
     scene.force = filtered;
   }

@@ -14,7 +14,7 @@
 #include "report/html/assets.hpp"
 #include "report/html/figure.hpp"
 #include "report/html/page.hpp"
-#include "report/quantities.hpp"
+#include "report/quantity_rows.hpp"
 
 namespace slipfit {
 namespace html {

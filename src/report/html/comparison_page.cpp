@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "report/comparison.hpp"
+#include "report/comparison_rows.hpp"
 #include "report/html/figure.hpp"
 #include "report/html/page.hpp"
 #include "slipfit/report/comparison.hpp"

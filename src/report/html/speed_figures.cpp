@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "report/html/figure.hpp"
-#include "report/quantities.hpp"
+#include "report/quantity_rows.hpp"
 
 namespace slipfit::html {
 

@@ -11,7 +11,7 @@
 #include "report/html/page.hpp"
 #include "report/html/speed_figures.hpp"
 #include "report/names.hpp"
-#include "report/quantities.hpp"
+#include "report/quantity_rows.hpp"
 #include "report/text_sections.hpp"
 #include "slipfit/report/sweep_html.hpp"
 

@@ -1,4 +1,4 @@
-#include "report/quantities.hpp"
+#include "report/quantity_rows.hpp"
 
 #include <algorithm>
 #include <cassert>
