@@ -100,7 +100,10 @@ std::optional<RampBend> bend_between(const BlockFit& fit, const PartsOf& parts_o
   slope /= weights;
   double variance = 0.0;
   for (const auto& [weight, value] : cycles) variance += weight * weight * (value - difference) * (value - difference);
-  return RampBend{difference / slope, std::sqrt(variance) / weights / slope};
+  const double clear =
+      t_quantile(static_cast<double>(cycles.size()) - 1.0, 1.0 - normal_above(thresholds::kClearSigmas));
+  const double standard_error = std::sqrt(variance) / weights / slope;
+  return RampBend{difference / slope, clear / thresholds::kClearSigmas * standard_error};
 }
 
 }  // namespace
