@@ -13,7 +13,9 @@
 #include "fit/inference/covariance.hpp"
 #include "fit/inference/level_trend.hpp"
 #include "fit/inference/smoothing.hpp"
+#include "fit/inference/uncertainty.hpp"
 #include "fit/level/hum.hpp"
+#include "fit/problem/solve.hpp"
 #include "fit/selection/average_term.hpp"
 #include "fit/selection/rise.hpp"
 #include "fit/selection/stated_mass.hpp"
@@ -219,6 +221,22 @@ struct AveragingFindings {
   Warnings warnings;
 };
 
+/// Returns how the coordinates move where each sample is an average that nobody stated. The moves of slips of few
+/// samples are not proportional to what it does to one of them: these are fitted once more, as averaged over a step of
+/// the clock.
+Coordinates move_by_averaging(const DampedFit& fit, const BlockFit& blocks, const Smoothing& seen, double step_s) {
+  const Coordinates linear = unstated_variance_s2(fit, seen, step_s) * seen.move_per_s2;
+  if (median_slip_s(blocks) > thresholds::kSlipSamples * step_s) return linear;
+  Scales scales = blocks.scales();
+  scales.sensor_average_s = step_s;
+  BlockFit averaged = blocks.with_scales(scales);
+  if (!std::isfinite(solve(averaged, {fit.held, false, true}))) return linear;
+  constexpr double kLost = 1.0;  // of ln w_n: such slips may be as quick as one likes
+  Coordinates move = coordinates_of(averaged) - coordinates_of(blocks);
+  if (std::abs(move(kLogFrequency)) > kLost) move(kLogFrequency) = linear(kLogFrequency);
+  return move;
+}
+
 /// Returns the effects of averaging. If it is not stated it is assumed to be anything up to one step of the clock, or
 /// what the slips show.
 AveragingFindings averaging_of(const Recording& recording, const DampedFit& fit, const BlockFit& blocks) {
@@ -234,7 +252,7 @@ AveragingFindings averaging_of(const Recording& recording, const DampedFit& fit,
       &blocks == &fit.blocks ? fit.rounding : estimate_smoothing(blocks, fit.held, step_s);
   if (!seen) return result;
   const bool rounded = !repeats_rounding(fit) && seen->exceeds_step(step_s);
-  result.one_sided = unstated_variance_s2(fit, *seen, step_s) * seen->move_per_s2;
+  result.one_sided = move_by_averaging(fit, blocks, *seen, step_s);
   if (rounded) {
     const double average_s = std::sqrt(12.0 * seen->variance_s2);
     result.caveat = fmt::format("the slips are rounded as by sensor averaging over {:.2g} ms", 1e3 * average_s);
