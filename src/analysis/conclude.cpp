@@ -19,8 +19,9 @@
 namespace slipfit {
 namespace {
 
-/// The fit as far as its numbers hold: no parameters where the motion is not the model's, no natural
-/// frequency where the slips are not inertial, nothing identified where the cycles keep in step with the mains.
+/// Returns the fit without the results that the rest of the analysis rules out: it has no parameters where the motion
+/// is not that of the model and no natural frequency where inertia does not determine the slips, and it identifies
+/// nothing where the cycles are synchronous with the mains.
 std::optional<FitResult> qualify(std::optional<FitResult> fit, const Classification& classification,
                                  const Analysis& analysis, double duration_s) {
   if (!fit) return fit;
@@ -59,7 +60,8 @@ void append(Warnings& warnings, const Warnings& more) {
   warnings.insert(warnings.end(), more.begin(), more.end());
 }
 
-/// The analysis with the values that contradict each other not identified, and what follows from them derived anew.
+/// Returns the analysis in which values that contradict each other are not identified, with what follows from them
+/// derived again.
 Analysis audited(const Recording& recording, Analysis analysis) {
   if (!analysis.fit) return analysis;
   analysis.audit = audit_of(recording, analysis, *analysis.fit);
@@ -134,7 +136,7 @@ Warnings all_warnings(const SweepAnalysis& sweep) {
   return warnings;
 }
 
-/// The sweep with the shared values that contradict what one of its recordings shows not identified.
+/// Returns the sweep in which a shared value is not identified if it contradicts one of the recordings.
 SweepAnalysis audited(std::span<const SweepEntry> entries, SweepAnalysis sweep) {
   std::vector<AuditPair> shared;
   for (std::size_t i = 0; i < entries.size(); ++i) {

@@ -11,8 +11,8 @@
 namespace slipfit {
 
 /// Works out everything that follows from slips, spectrum and fit of the stretch that slides: the frequency to quote,
-/// statistics of the cycles, coefficients of friction, what is derived from the fit, short tests, contradictions,
-/// warnings and the parameters as far as these leave them. The fit moves from `estimates` to the analysis.
+/// statistics of the cycles, coefficients of friction, what is derived from the fit, short tests, contradictions and
+/// warnings. These limit the status of the fitted parameters. The fit moves from `estimates` to the analysis.
 Analysis conclude(const Detected& detected, Estimates& estimates, Classification classification);
 
 /// Returns the analysis without falls where it is steady sliding, which has no slips. Comparisons of several speeds

@@ -248,7 +248,7 @@ bool go_with_speed(std::span<const SweepEntry> entries, std::span<const Apart> r
     distances.push_back(one.distance);
   }
   const LineSums line = line_sums(places, distances);
-  return line.slope() * line.cross > thresholds::kGoesWithSpeed * line.scatter;
+  return line.square > 0.0 && line.slope() * line.cross >= thresholds::kGoesWithSpeed * line.scatter;
 }
 
 /// Returns the recording that differs most, if enough others agree.
