@@ -294,10 +294,16 @@ CycleData thinned(CycleData cycle, double middle_s, double half_period_s, double
   return cycle;
 }
 
+std::vector<std::size_t> spread_indices(std::size_t count, std::size_t most) {
+  const std::size_t size = std::min(count, most);
+  std::vector<std::size_t> indices;
+  for (std::size_t i = 0; i < size; ++i) indices.push_back(size < 2 ? 0 : i * (count - 1) / (size - 1));
+  return indices;
+}
+
 std::vector<CycleData> spread_subset(const std::vector<CycleData>& cycles, std::size_t size) {
-  if (cycles.size() <= size) return cycles;
   std::vector<CycleData> subset;
-  for (std::size_t i = 0; i < size; ++i) subset.push_back(cycles[i * (cycles.size() - 1) / (size - 1)]);
+  for (const std::size_t i : spread_indices(cycles.size(), size)) subset.push_back(cycles[i]);
   return subset;
 }
 

@@ -82,6 +82,22 @@ BlockFit BlockFit::with_scales(const Scales& scales) const {
   return other;
 }
 
+BlockFit BlockFit::with_fewer_cycles(std::size_t most) const {
+  if (size() <= most) return *this;
+  std::vector<CycleData> cycles;
+  std::vector<double> references_s;
+  std::vector<Local> locals;
+  for (const std::size_t i : spread_indices(size(), most)) {
+    cycles.push_back(data(i));
+    references_s.push_back(reference_s(i));
+    locals.push_back(parameters.cycles[i]);
+  }
+  std::optional<BlockFit> fewer = create(std::move(cycles), std::move(references_s), scales_, level());
+  if (!fewer) return *this;
+  fewer->parameters = {parameters.values, parameters.level, std::move(locals)};
+  return *std::move(fewer);
+}
+
 void BlockFit::start_at(const Coordinates& start) {
   parameters.values.head<kOfSlip>() = start.head<kOfSlip>();
   parameters.values.segment<2>(kRelaxation) = start.segment<2>(kRelaxation);

@@ -21,7 +21,9 @@ namespace slipfit::fit {
 namespace {
 
 constexpr double kSlowestRate = 0.3;  // alpha v_c with which the search for another law begins
-constexpr int kSweepMaxIterations = 50;
+/// Sums of squares to a hundredth of what a parameter gains by chance; what creeps on does not explain the slips.
+constexpr Accuracy kCompared{1e-2, 20};
+constexpr Accuracy kRough{0.1, 10};
 
 /// Residual rows over parameters: each stick bin counts as its two rows, as it does in chi2.
 double residual_freedom(const SweepSolution& solution) {
@@ -34,6 +36,12 @@ double residual_freedom(const SweepSolution& solution) {
     }
   }
   return std::max(1.0, freedom);
+}
+
+/// Solves from the solution's parameters on. Returns chi2, infinity where they are outside the model.
+double solve(SweepSolution& solution, const Held& held, const Accuracy& accuracy) {
+  return solve_together(solution.recordings, solution.sweep,
+                        {held, false, true, accuracy.most_iterations, accuracy.tolerance});
 }
 
 SweepSolution moved_by(SweepSolution solution, const NewtonStep& step) {
@@ -86,13 +94,9 @@ bool SweepSolution::can_show_trend(std::size_t fewest) const {
   return recordings.size() >= fewest && ratio_of_ends(speeds_m_per_s()) > thresholds::kTrendSpeedRatio;
 }
 
-double solve(SweepSolution& solution, const Held& held, int max_iterations, double tolerance) {
-  return solve_together(solution.recordings, solution.sweep, {held, false, true, max_iterations, tolerance});
-}
-
-std::optional<SweepSolution> at_minimum(SweepSolution solution, const Held& held, double tolerance) {
+std::optional<SweepSolution> at_minimum(SweepSolution solution, const Held& held, const Accuracy& accuracy) {
   solution.held = held;
-  solution.chi2 = solve(solution, held, kSweepMaxIterations, tolerance);
+  solution.chi2 = solve(solution, held, accuracy);
   if (!std::isfinite(solution.chi2)) return std::nullopt;
   solution.degrees_of_freedom = residual_freedom(solution);
   return solution;
@@ -171,9 +175,35 @@ std::optional<NormalSolution> leave_out(const NormalSolution& all, std::size_t r
 
 namespace {
 
-constexpr double kSweepRough = 0.1;
-constexpr double kSweepCompared = 1e-2;  // sums of squares to a hundredth of what a parameter gains by chance
-constexpr int kSweepQuickIterations = 10;
+constexpr std::size_t kStartCycles = 16;  // of each recording, on which starts are compared
+
+/// Moves each cycle of `all`, which is where `few` began, as the one before it among the few has moved, or to where
+/// that one is, if it has no slip otherwise.
+void follow(const BlockFit& few, BlockFit& all) {
+  all.parameters.values = few.parameters.values;
+  all.parameters.level = few.parameters.level;
+  std::size_t next = 0;
+  Local there{};
+  Local move{};
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    Local& own = all.parameters.cycles[i];
+    if (next < few.size() && few.data(next).slip == all.data(i).slip) {
+      there = few.parameters.cycles[next++];
+      for (std::size_t j = 0; j < own.size(); ++j) move[j] = there[j] - own[j];
+    }
+    for (std::size_t j = 0; j < own.size(); ++j) own[j] += move[j];
+    if (!all.model(i).is_inside(all.values(i))) own = there;
+  }
+}
+
+/// The solution of a few cycles of each recording, whose chi2 it has, with the other cycles where these suggest.
+SweepSolution drafted(SweepSolution start, const Held& held, const Accuracy& accuracy) {
+  SweepSolution few = start;
+  for (BlockFit& recording : few.recordings) recording = recording.with_fewer_cycles(kStartCycles);
+  start.chi2 = solve(few, held, accuracy);
+  for (std::size_t r = 0; r < few.recordings.size(); ++r) follow(few.recordings[r], start.recordings[r]);
+  return start;
+}
 
 /// The recordings `used` of the sweep, as their own fits left them.
 SweepSolution start_of(const SweepData& data, Sharing sharing, FrictionLaw law, const std::vector<std::size_t>& used) {
@@ -200,11 +230,9 @@ class SweepFitter {
   SweepFitter(const SweepData& data, const HeldParameters& held) : data_(data), fixed_(held) {}
 
   [[nodiscard]] std::optional<SweepSolution> fit_rig(RigFit kind) const {
-    if (kind != RigFit::Rough) return fit_coulomb({false, false}, kind == RigFit::StiffnessGrows);
-    SweepSolution start = start_of(data_, {false, false}, FrictionLaw::Coulomb, data_.fitted);
-    set_start(start);
-    start.chi2 = solve(start, held_of(fixed_), kSweepQuickIterations, kSweepRough);
-    return std::isfinite(start.chi2) ? std::optional(std::move(start)) : std::nullopt;
+    const Kind rig{FrictionLaw::Coulomb, kind == RigFit::StiffnessGrows};
+    std::optional<SweepSolution> draft = draft_of(rig, {false, false});
+    return kind == RigFit::Rough ? std::move(draft) : finished(std::move(draft), rig);
   }
 
   [[nodiscard]] std::optional<SweepFits> fit() const {
@@ -253,6 +281,9 @@ class SweepFitter {
     if (fixed_.stiffness_N_per_m) first(kLogStiffness) = std::log(*fixed_.stiffness_N_per_m);
     if (fixed_.natural_frequency_rad_per_s) first(kLogFrequency) = std::log(*fixed_.natural_frequency_rad_per_s);
     if (fixed_.damping_ratio) first(kDamping) = *fixed_.damping_ratio;
+    for (BlockFit& recording : solution.recordings) {
+      recording.parameters.values.head<kOfSlip>() = first.head<kOfSlip>();
+    }
     std::vector<double> levels;
     std::vector<double> differences;
     for (const BlockFit& recording : solution.recordings) {
@@ -260,40 +291,44 @@ class SweepFitter {
       differences.push_back(recording.parameters.values(kDifference));
     }
     for (BlockFit& recording : solution.recordings) {
-      recording.parameters.values.head<kOfSlip>() = first.head<kOfSlip>();
       if (solution.sweep.sharing.level) recording.parameters.level[0] = signal::median(levels);
       if (solution.sweep.sharing.difference) recording.parameters.values(kDifference) = signal::median(differences);
     }
   }
 
-  /// Several rates: a wrong sign of alpha is a minimum of its own.
-  [[nodiscard]] std::optional<SweepSolution> fit_velocity(Sharing sharing) const {
+  /// The best of starts from the recordings' own fits at several rates: a wrong sign of alpha is a minimum of its own.
+  [[nodiscard]] std::optional<SweepSolution> draft_of(const Kind& kind, Sharing sharing) const {
+    SweepSolution start = start_of(data_, sharing, kind.law, data_.fitted);
+    set_start(start);
     const Held held = held_of(fixed_);
+    if (kind.law == FrictionLaw::Coulomb) return existing(drafted(std::move(start), held, kRough));
+    Held quick = held;
+    quick[kFrictionRate] = true;
     constexpr std::array kStartRates{-1.0, 1.0, -4.0};
-    std::vector<SweepSolution> starts = in_parallel(kStartRates.size(), [&](std::size_t i) {
-      SweepSolution start = start_of(data_, sharing, FrictionLaw::Exponential, data_.fitted);
-      set_start(start);
-      for (BlockFit& recording : start.recordings) recording.parameters.values(kFrictionRate) = kStartRates[i];
-      Held quick = held;
-      quick[kFrictionRate] = true;
-      start.chi2 = solve(start, quick, kSweepQuickIterations, kSweepRough);
-      return start;
+    std::vector<SweepSolution> drafts = in_parallel(kStartRates.size(), [&](std::size_t i) {
+      SweepSolution at_rate = start;
+      for (BlockFit& recording : at_rate.recordings) recording.parameters.values(kFrictionRate) = kStartRates[i];
+      return drafted(std::move(at_rate), quick, kRough);
     });
-    std::optional<SweepSolution> best;
-    for (SweepSolution& start : starts) {
-      if (std::isfinite(start.chi2) && (!best || start.chi2 < best->chi2)) best = std::move(start);
-    }
-    return best ? at_minimum(std::move(*best), held, kSweepCompared) : std::nullopt;
+    const auto best = std::ranges::min_element(drafts, {}, &SweepSolution::chi2);
+    return std::isfinite(best->chi2) ? existing(drafted(std::move(*best), held, kCompared)) : std::nullopt;
   }
 
-  [[nodiscard]] std::optional<SweepSolution> fit_coulomb(Sharing sharing, bool grows) const {
-    SweepSolution start = start_of(data_, sharing, FrictionLaw::Coulomb, data_.fitted);
-    set_start(start);
-    return grows ? with_exponent(std::move(start), held_of(fixed_)) : at_minimum(std::move(start), held_of(fixed_));
+  /// Empty where the model has no solution.
+  static std::optional<SweepSolution> existing(SweepSolution solution) {
+    return std::isfinite(solution.chi2) ? std::optional(std::move(solution)) : std::nullopt;
+  }
+
+  /// The minimum of all cycles from a draft on.
+  [[nodiscard]] std::optional<SweepSolution> finished(std::optional<SweepSolution> draft, const Kind& kind) const {
+    if (!draft) return std::nullopt;
+    const Held held = held_of(fixed_);
+    if (kind.stiffness_grows) return with_exponent(*std::move(draft), held);
+    return at_minimum(*std::move(draft), held, kind.law == FrictionLaw::Coulomb ? Accuracy{} : kCompared);
   }
 
   [[nodiscard]] std::optional<SweepSolution> fit(const Kind& kind, Sharing sharing) const {
-    return kind.law == FrictionLaw::Coulomb ? fit_coulomb(sharing, kind.stiffness_grows) : fit_velocity(sharing);
+    return finished(draft_of(kind, sharing), kind);
   }
 
   /// Sharing as much of `most` as the data agree with: both, then one of the two, else nothing.
@@ -336,7 +371,7 @@ class SweepFitter {
   [[nodiscard]] static std::optional<SweepSolution> released(const SweepSolution& shared) {
     SweepSolution free = shared;
     free.sweep.sharing = {};
-    return at_minimum(std::move(free), shared.held, kSweepCompared);
+    return at_minimum(std::move(free), shared.held, kCompared);
   }
 
   const SweepData& data_;

@@ -33,14 +33,14 @@ struct SweepSolution {
   }
 };
 
-/// SolveOptions::tolerance of a sweep's last step.
-inline constexpr double kSweepFinal = 1e-4;
-
-/// Solves from the solution's parameters on. Returns chi2, infinity where they are outside the model.
-double solve(SweepSolution& solution, const Held& held, int max_iterations, double tolerance);
+/// How far a sweep is solved.
+struct Accuracy {
+  double tolerance = 1e-4;  ///< SolveOptions::tolerance
+  int most_iterations = 50;
+};
 
 /// The solution, moved to its minimum with these coordinates held; empty where it has none.
-std::optional<SweepSolution> at_minimum(SweepSolution solution, const Held& held, double tolerance = kSweepFinal);
+std::optional<SweepSolution> at_minimum(SweepSolution solution, const Held& held, const Accuracy& accuracy = {});
 
 /// At its minimum to a thousandth of a standard error.
 SweepSolution settled(const SweepSolution& solution);
@@ -85,7 +85,7 @@ struct SweepFits {
 /// Says how a fit of the rig is done.
 enum class RigFit {
   Sharp,
-  Rough,          ///< near enough to the minimum to compare starts
+  Rough,          ///< by a few cycles of each recording, whose chi2 it has, near enough to compare starts
   StiffnessGrows  ///< sharp, with k that varies with the speed
 };
 
