@@ -120,6 +120,7 @@ AverageTrial try_average(const FitInput& input, const DampedFit& plain) {
   std::vector<Minimum> minima = fitter->minima({.average = true}).found;
   const Minimum without = fitter->plain();
   std::erase_if(minima, [&](const Minimum& minimum) {
+    if (!(median_slip_s(minimum.blocks) > input.recording.sample_interval_s())) return true;
     if (!is_shaped(find_misfit(minimum.blocks, tolerated_misfit(input.quality)))) return true;
     const bool may_pay = fitter->gain_on_all(minimum, without) > 0.5 * thresholds::kTierPrice;
     return !may_pay &&

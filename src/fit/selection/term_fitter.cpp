@@ -88,7 +88,8 @@ constexpr double kSlip2 = 5.6;          // W^2 of an average that draws the fall
 constexpr std::size_t kFewCycles = 16;
 constexpr std::size_t kLeastEnough = 40;
 constexpr std::size_t kMostEnough = 64;
-constexpr int kOwnIterations = 6;  // of onsets and forces by themselves
+constexpr int kOwnIterations = 6;    // of onsets and forces by themselves
+constexpr int kFirstIterations = 3;  // that show which start of an average is best
 constexpr int kDraftIterations = 10;
 constexpr int kCompareIterations = 20;
 constexpr int kFullIterations = 60;
@@ -229,13 +230,17 @@ Minima TermFitter::minima(Terms terms, bool is_asked) const {
     return is_elsewhere && gain_on(*few_, drafts.front(), draft) < kRuledOut;
   };
   Minima minima;
+  const auto shows_term = [&](const BlockFit& fit) {
+    const bool has_slips = is_asked || has_slips_of_its_own(fit);
+    minima.is_complete &= has_slips;
+    return has_slips && (is_asked || has_term(fit));
+  };
   for (std::size_t i = 0; i < drafts.size(); ++i) {
     if (i > 0 && !is_another(drafts[i])) continue;
-    std::optional<Minimum> some = near(drafts[i].blocks);
-    if (!some || !(is_asked || has_slips_of_its_own(some->blocks))) {
-      minima.is_complete = false;
-    } else if (is_asked || has_term(some->blocks)) {
-      minima.found.push_back(*std::move(some));
+    if (shows_term(drafts[i].blocks)) {
+      std::optional<Minimum> some = near(drafts[i].blocks);
+      minima.is_complete &= some.has_value();
+      if (some && shows_term(some->blocks)) minima.found.push_back(*std::move(some));
     }
     if (i > 0) break;
   }
@@ -377,8 +382,7 @@ std::vector<double> TermFitter::lengths_of_rise() const {
   return lengths;
 }
 
-std::optional<Minimum> TermFitter::drafted(Terms terms, const Start& start) const {
-  const SolveOptions options{held_, false, true, kDraftIterations, kDraftTolerance, true};
+std::optional<Minimum> TermFitter::begun(Terms terms, const Start& start, double rise_length) const {
   Coordinates near = plain_.blocks.parameters.values;
   // The slower onset makes a slip longer: so much slower is w_n without it.
   if (!held_[kLogFrequency]) {
@@ -387,38 +391,44 @@ std::optional<Minimum> TermFitter::drafted(Terms terms, const Start& start) cons
   }
   if (!held_[kDamping]) near(kDamping) = 0.05;
   near(kSlipDistance) = std::sqrt(start.weakening);
-  const bool rises = plain_.blocks.level().reloading != nullptr;
-  std::optional<Minimum> best;
-  for (std::size_t length = 0; length < (rises ? kRiseLengths.size() : 1); ++length) {
-    BlockFit blocks = started(BlockFit(few_, scales_of(terms, std::sqrt(start.share_of_fall * fall_s2_))), near);
-    if (rises) blocks.parameters.values(kReloadLength) += std::log(kRiseLengths[length]);
-    if (terms.rise) blocks = with_rise_over(start.length_m, input_, plain_.blocks, blocks);
-    if (!solve_own(blocks, input_.segmentation)) continue;
-    double sum = solve(blocks, options);
-    for (int i = 0; i < kRiseSteps && rises && std::isfinite(sum); ++i) {
-      blocks = with_rise_after(blocks);
-      sum = solve(blocks, options);
-    }
-    const bool is_better = std::isfinite(sum) && fit::rises(blocks) && (!best || sum < best->minimised);
-    if (is_better) best = Minimum{std::move(blocks), sum};
+  BlockFit blocks = started(BlockFit(few_, scales_of(terms, std::sqrt(start.share_of_fall * fall_s2_))), near);
+  blocks.parameters.values(kReloadLength) += std::log(rise_length);
+  if (terms.rise) blocks = with_rise_over(start.length_m, input_, plain_.blocks, blocks);
+  if (!solve_own(blocks, input_.segmentation)) return std::nullopt;
+  const double sum = solve(blocks, {held_, false, true, kFirstIterations, kDraftTolerance, true});
+  return std::isfinite(sum) ? std::optional(Minimum{std::move(blocks), sum}) : std::nullopt;
+}
+
+std::optional<Minimum> TermFitter::drafted(Terms terms, Minimum begun) const {
+  const SolveOptions options{held_, false, true, kDraftIterations, kDraftTolerance, true};
+  auto& [blocks, sum] = begun;
+  sum = solve(blocks, options);
+  for (int i = 0; i < kRiseSteps && plain_.blocks.level().reloading && std::isfinite(sum); ++i) {
+    blocks = with_rise_after(blocks);
+    sum = solve(blocks, options);
   }
-  return best;
+  if (!std::isfinite(sum) || !rises(blocks)) return std::nullopt;
+  if (terms.average) blocks = with_free_time(blocks, FreeTime::Average);
+  if (terms.rise) blocks = with_free_rise(blocks);
+  return begun;
 }
 
 std::vector<Minimum> TermFitter::drafts_of(Terms terms) const {
+  const std::span<const double> rise_lengths(kRiseLengths.data(),
+                                             plain_.blocks.level().reloading ? kRiseLengths.size() : 1);
+  const std::vector<Start> starts = starts_of(terms);
   std::vector<Minimum> drafts;
-  std::optional<double> latest_share;
-  for (const Start& start : starts_of(terms)) {
-    const bool shares_average = latest_share == start.share_of_fall;
-    std::optional<Minimum> draft = drafted(terms, start);
-    if (!draft || (shares_average && !explains_more(*draft, drafts.back()))) continue;
-    if (shares_average) drafts.pop_back();
-    latest_share = start.share_of_fall;
-    drafts.push_back(*std::move(draft));
-  }
-  for (Minimum& draft : drafts) {
-    if (terms.average) draft.blocks = with_free_time(draft.blocks, FreeTime::Average);
-    if (terms.rise) draft.blocks = with_free_rise(draft.blocks);
+  for (auto next = starts.begin(); next != starts.end();) {
+    const double share = next->share_of_fall;
+    std::optional<Minimum> best;
+    for (; next != starts.end() && next->share_of_fall == share; ++next) {
+      for (const double rise_length : rise_lengths) {
+        std::optional<Minimum> one = begun(terms, *next, rise_length);
+        if (one && (!best || explains_more(*one, *best))) best = std::move(one);
+      }
+    }
+    if (best) best = drafted(terms, *std::move(best));
+    if (best) drafts.push_back(*std::move(best));
   }
   std::sort(drafts.begin(), drafts.end(), explains_more);
   return drafts;

@@ -120,8 +120,12 @@ class TermFitter {
   [[nodiscard]] std::vector<Start> starts_of(Terms terms) const;
   [[nodiscard]] double gain_on(const CycleSet& cycles, const Minimum& better, const Minimum& other) const;
   [[nodiscard]] std::vector<double> lengths_of_rise() const;
-  [[nodiscard]] std::optional<Minimum> drafted(Terms terms, const Start& start) const;
-  /// Returns the drafts, of starts that share an average only the best one: the average is what separates minima.
+  /// The first steps of a fit of few cycles from this start. `rise_length`: of a rise that the plain fit has, over its
+  /// length there. Empty where a slip has no solution; so are drafts.
+  [[nodiscard]] std::optional<Minimum> begun(Terms terms, const Start& start, double rise_length) const;
+  [[nodiscard]] std::optional<Minimum> drafted(Terms terms, Minimum begun) const;
+  /// Returns the drafts, of starts that share an average only that of the best one after its first steps: the average
+  /// is what separates minima.
   [[nodiscard]] std::vector<Minimum> drafts_of(Terms terms) const;
   [[nodiscard]] Minimum descended(Minimum draft) const;
   /// Solves near another fit, to the accuracy that comparing terms needs. Empty where a slip has no solution.

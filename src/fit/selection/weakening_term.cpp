@@ -35,6 +35,12 @@ std::string hindrance(const FitInput& input, const DampedFit& coulomb) {
   return samples < thresholds::kShapeSamples ? too_few_samples(samples, step_s) : std::string();
 }
 
+/// An average of the sensor takes as many parameters as a slip distance and explains the roundness, not the asymmetry
+/// of the slip: a fit in its place, or with both, need not halve the stacked residual.
+bool is_rounded(const DampedFit& fit) {
+  return fit.average || fit.blocks.scales().law == FrictionLaw::Weakening;
+}
+
 /// Sets what the fit says for and against it. `before`: stacked residual of the Coulomb fit.
 Candidate judged(Candidate candidate, const DampedFit& fit, const DampedFit& coulomb, double gain, double before) {
   const double sigmas = sigmas_of_distance(fit);
@@ -47,9 +53,7 @@ Candidate judged(Candidate candidate, const DampedFit& fit, const DampedFit& cou
     candidate.reason += fmt::format("; the standard error of the damping ratio is {:.2g}", damping_error(fit));
     return candidate;
   }
-  // An average of the sensor takes as many parameters and explains the roundness, not the asymmetry of the slip.
-  const bool is_rounded = coulomb.average || coulomb.blocks.scales().law == FrictionLaw::Weakening;
-  const double most = is_rounded ? before : thresholds::kHalvedStack * before;
+  const double most = is_rounded(coulomb) ? before : thresholds::kHalvedStack * before;
   candidate.chosen = gain > thresholds::kTierPrice && sigmas > thresholds::kClearSigmas && after <= most;
   candidate.reason += candidate.chosen
                           ? ": the slip distance is justified"
@@ -62,14 +66,18 @@ constexpr double kFilterCorner = 3.0;  // over w_n, with which the search for a 
 constexpr double kFilterReach = 3.0;   // of 1 / w_n: a filter of fourth order at 3 w_n decays to e^-3
 constexpr double kHopeful = 1.1 * thresholds::kHalvedStack;
 
-/// False where the cycles that compare the terms show that this minimum will not be taken in place of Coulomb friction:
-/// it explains them less well, or it cannot halve what the slips of that law miss (`missed`, the stacked residual). In
-/// place of an average it need not explain more.
-bool promises(const TermFitter& fitter, const Minimum& minimum, const DampedFit& coulomb, double missed) {
-  if (fitter.gain_on_some(minimum, fitter.plain()) < -thresholds::kTierPrice) return false;
-  if (coulomb.average) return true;
-  const StackedResidual after = stacked_residual(minimum.blocks, coulomb.blocks);
+/// False where the cycles that compare the terms show that this minimum cannot halve what the slips of `poorer` miss
+/// (`missed`, the stacked residual), if it has to.
+bool explains(const Minimum& minimum, const DampedFit& poorer, double missed) {
+  if (is_rounded(poorer)) return true;
+  const StackedResidual after = stacked_residual(minimum.blocks, poorer.blocks);
   return after.size * after.size - after.by_chance * after.by_chance < std::pow(kHopeful * missed, 2);
+}
+
+/// False where these cycles show that the minimum will not be taken in place of Coulomb friction: it explains them less
+/// well, or not enough more.
+bool promises(const TermFitter& fitter, const Minimum& minimum, const DampedFit& coulomb, double missed) {
+  return fitter.gain_on_some(minimum, fitter.plain()) > -thresholds::kTierPrice && explains(minimum, coulomb, missed);
 }
 
 /// The fit of all cycles with friction that weakens and no average but a stated one. `missed`: stacked residual of the
@@ -88,6 +96,16 @@ std::optional<DampedFit> fit_weakening(const FitInput& input, const TermFitter& 
   return fit;
 }
 
+/// F_s - F_k lies between half of the fall and the drop between the ramps whatever D_c and zeta are, and slips rest:
+/// others follow the samples by other means than a slip.
+bool has_slips_of_the_model(const DampedFit& fit) {
+  constexpr double kRoom = 0.05;
+  const SawtoothFit sawtooth = fit_sawtooth(fit);
+  const double difference = mean_onset_force(fit);
+  return resting_share(fit.blocks) >= thresholds::kRestickShare && difference > (0.5 - kRoom) * sawtooth.fall &&
+         difference < (1.0 + kRoom) * sawtooth.drop;
+}
+
 /// A fit of both, by how much its AICc is lower than the rival's, and whether no other minimum is as good.
 struct Both {
   DampedFit fit;
@@ -96,14 +114,26 @@ struct Both {
   std::optional<DampedFit> other{};  ///< as good
 };
 
-/// All cycles are fitted only where the cycles that compare the terms show that it may pay.
-std::optional<Both> best_of_both(const FitInput& input, const TermFitter& fitter, const DampedFit& rival) {
+/// All cycles are fitted only where the cycles that compare the terms show that it may be taken. `missed`: stacked
+/// residual of `rival`.
+std::optional<Both> best_of_both(const FitInput& input, const TermFitter& fitter, const DampedFit& rival,
+                                 double missed) {
   const auto [minima, is_complete] = fitter.minima({.average = true, .weakening = true});
   const std::optional<Minimum> single = fitter.near(rival.blocks);
   if (minima.empty() || !single) return std::nullopt;
-  if (fitter.gain_on_all(minima.front(), *single) < 0.5 * thresholds::kTierPrice) {
-    const double gain = fitter.gain_on_some(minima.front(), *single) - 2.0;  // one parameter more
-    return Both{fitter.rival_of(minima.front()), gain, false};
+  const double gain_on_all = fitter.gain_on_all(minima.front(), *single);
+  std::vector<DampedFit> rivals;
+  bool may_be_taken = false;
+  for (const Minimum& minimum : minima) {
+    rivals.push_back(fitter.rival_of(minimum));
+    may_be_taken |= explains(minimum, rival, missed) && average_is_identifiable(*rivals.back().average);
+  }
+  const bool pays = gain_on_all > 0.5 * thresholds::kTierPrice;
+  if (!pays || !may_be_taken) {
+    Both both{std::move(rivals.front()), gain_on_all - 2.0, false};  // one parameter more
+    const bool is_tie = minima.size() > 1 && fitter.gain_on_all(minima[0], minima[1]) < thresholds::kTierPrice;
+    if (pays && is_tie) both.other = std::move(rivals[1]);
+    return both;
   }
   std::vector<DampedFit> fits;
   bool all_settled = is_complete;
@@ -131,16 +161,6 @@ std::optional<Both> best_of_both(const FitInput& input, const TermFitter& fitter
   return both;
 }
 
-/// F_s - F_k lies between half of the fall and the drop between the ramps whatever D_c and zeta are, and slips rest:
-/// others follow the samples by other means than a slip.
-bool has_slips_of_the_model(const DampedFit& fit) {
-  constexpr double kRoom = 0.05;
-  const SawtoothFit sawtooth = fit_sawtooth(fit);
-  const double difference = mean_onset_force(fit);
-  return resting_share(fit.blocks) >= thresholds::kRestickShare && difference > (0.5 - kRoom) * sawtooth.fall &&
-         difference < (1.0 + kRoom) * sawtooth.drop;
-}
-
 /// Returns what a fit of both says for and against it, compared with `single`, the fit with one of the two. `before` is
 /// the stacked residual of `single`.
 Candidate judged_both(const Both& both, const DampedFit& single, double before) {
@@ -158,7 +178,7 @@ WeakeningTrial with_both(WeakeningTrial trial, const FitInput& input, const Term
   const DampedFit& single = trial.candidate.chosen ? *trial.fit : coulomb;
   const StackedResidual before = stacked_residual(single.blocks, coulomb.blocks);
   if (!coulomb.average && before.size < before.by_chance) return trial;
-  std::optional<Both> both = best_of_both(input, fitter, single);
+  std::optional<Both> both = best_of_both(input, fitter, single, before.size);
   if (!both) return trial;
   Candidate candidate = judged_both(*both, single, before.size);
   if (both->is_sure && candidate.chosen) return {std::move(both->fit), std::move(candidate), {}, {}, std::nullopt};
