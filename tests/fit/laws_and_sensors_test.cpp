@@ -222,3 +222,24 @@ TEST_CASE("friction that weakens over a vanishing distance is Coulomb friction b
     CHECK(weakening.data(0).force[i] == Approx(coulomb.data(0).force[i]).margin(5e-3));
   }
 }
+
+TEST_CASE("a solve that comes to the end of a parameter's range goes on along it") {
+  const FrictionLaw law = GENERATE(FrictionLaw::Coulomb, FrictionLaw::Weakening);
+  Coordinates truth = true_values(law);
+  truth(kDamping) = -0.1;
+  BlockFit bounded = displaced(exact(scales_of(law, ForceView::Spring, {}, 0.01, false), truth));
+  bounded.parameters.values(kDamping) = 0.1;
+  BlockFit at_end = bounded;
+  const double sum = solve(bounded, {{}, false, true, 200, 1e-6, true});
+  Held held{};
+  held[kDamping] = true;
+  at_end.parameters.values(kDamping) = 0.0;
+  const double least = solve(at_end, {held, false, true, 200, 1e-6});
+  CHECK(bounded.parameters.values(kDamping) == Approx(0.0).margin(1e-12));
+  // Both solves end where nothing is gained but a share of 1e-6 of one residual.
+  CHECK(sum == Approx(least).epsilon(1e-5));
+  for (const Coordinate coordinate : bounded.columns().coordinates()) {
+    CAPTURE(coordinate);
+    CHECK(bounded.parameters.values(coordinate) == Approx(at_end.parameters.values(coordinate)).margin(1e-4));
+  }
+}

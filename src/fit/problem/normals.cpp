@@ -1,6 +1,7 @@
 #include "fit/problem/normals.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -205,9 +206,44 @@ bool evaluate_lines(const CycleModel& model, const CycleValues& values, Eigen::M
   return model.evaluate(values, lines.col(columns).data(), lines.data());
 }
 
+namespace {
+
+/// Products of A columns, from `a` on, with B columns, from `b` on: as many as the registers hold, so that each value
+/// is read once for several products.
+template <Index A, Index B>
+void put_products_of(const Eigen::Ref<const Eigen::MatrixXd>& lines, Index a, Index b, Eigen::Ref<RowMajor>& products) {
+  using Pair = Eigen::Array2d;
+  std::array<Pair, static_cast<std::size_t>(A * B)> sums;
+  sums.fill(Pair::Zero());
+  const Index rows = lines.rows();
+  const auto value = [&](Index row, Index column) { return lines.data() + column * lines.outerStride() + row; };
+  for (Index row = 0; row + 1 < rows; row += 2) {
+    for (Index i = 0; i < A; ++i) {
+      const Pair left = Pair::Map(value(row, a + i));
+      for (Index j = 0; j < B; ++j) sums[static_cast<std::size_t>(i * B + j)] += left * Pair::Map(value(row, b + j));
+    }
+  }
+  const bool is_odd = rows % 2 != 0;
+  for (Index i = 0; i < A; ++i) {
+    for (Index j = 0; j < B; ++j) {
+      const double last = is_odd ? lines(rows - 1, a + i) * lines(rows - 1, b + j) : 0.0;
+      products(a + i, b + j) = sums[static_cast<std::size_t>(i * B + j)].sum() + last;
+    }
+  }
+}
+
+}  // namespace
+
 void products_of(const Eigen::Ref<const Eigen::MatrixXd>& lines, Eigen::Ref<RowMajor> products) {
-  for (Index a = 0; a < lines.cols(); ++a) {  // quicker than a product of matrices of so few columns
-    for (Index b = a; b < lines.cols(); ++b) products(a, b) = lines.col(a).dot(lines.col(b));
+  const Index columns = lines.cols();
+  for (Index a = 0; a < columns; a += 2) {  // quicker than a product of matrices of so few columns
+    const bool is_pair = a + 1 < columns;
+    Index b = a;
+    for (; b + 4 <= columns && is_pair; b += 4) put_products_of<2, 4>(lines, a, b, products);
+    for (; b < columns; ++b) {
+      put_products_of<1, 1>(lines, a, b, products);
+      if (is_pair) put_products_of<1, 1>(lines, a + 1, b, products);
+    }
   }
 }
 

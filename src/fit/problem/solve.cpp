@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -163,6 +164,60 @@ bool Bundle::add_steady(Point& point) const {
 
 namespace {
 
+/// A time of the sensor of a hundredth of the slip leaves no trace, and none is not a value that derivatives lead to.
+constexpr double kLeastSensorTime = 1e-4;  // (time / Scales::sensor_time_unit_s)^2
+
+constexpr double kMostRelaxation = 0.95;  // of k: a spring that relaxes by all of it is none
+constexpr double kShortestRise = 1e-3;    // of the longest: over before the next sample
+
+/// The range of a common parameter.
+struct Bound {
+  Index column = 0;
+  double least = 0.0;
+  double most = std::numeric_limits<double>::infinity();
+};
+
+std::vector<Bound> bounds_of(const Problem& problem, const SolveOptions& options) {
+  const CommonColumns columns(problem);
+  std::vector<Bound> bounds;
+  const auto bound = [&](Coordinate coordinate, double least, double most = std::numeric_limits<double>::infinity()) {
+    if (options.held[static_cast<std::size_t>(coordinate)]) return;
+    for (std::size_t r = 0; r < problem.recordings.size(); ++r) {
+      if (const std::optional<Index> column = columns.find(r, coordinate)) bounds.push_back({*column, least, most});
+    }
+  };
+  bound(kFrictionRate, kLeastRate, kMostRate);
+  bound(kSensorTime, kLeastSensorTime);
+  if (options.damped) bound(kDamping, 0.0);
+  bound(kRelaxation, 0.0, kMostRelaxation);
+  double longest_m = 0.0;
+  double longest_s = 0.0;
+  for (const BlockFit& recording : problem.recordings) {
+    if (const auto& rise = recording.level().reloading) longest_m = std::max(longest_m, rise->longest_m);
+    if (const auto& relaxing = recording.scales().relaxing) longest_s = std::max(longest_s, relaxing->longest_s);
+  }
+  if (longest_m > 0.0) bound(kReloadLength, std::log(kShortestRise * longest_m), std::log(longest_m));
+  if (longest_s > 0.0) bound(kRelaxationTime, std::log(kShortestRise * longest_s), std::log(longest_s));
+  return bounds;
+}
+
+/// Returns the columns, in ascending order, of the parameters that are at an end of their range and would leave it to
+/// make the sum smaller.
+std::vector<Index> pressing(const std::vector<Bound>& bounds, const Bundle::Point& point) {
+  constexpr double kAtEnd = 1e-9;
+  std::vector<Index> columns;
+  for (const Bound& bound : bounds) {
+    const double value = point.common(bound.column);
+    const double slope = point.normal.common()(bound.column, point.common.size());
+    const double near = kAtEnd * std::max(1.0, std::abs(bound.least));
+    const bool leaves = slope > 0.0 ? value <= bound.least + near : value >= bound.most - near;
+    if (leaves && slope != 0.0) columns.push_back(bound.column);
+  }
+  std::sort(columns.begin(), columns.end());
+  columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
+  return columns;
+}
+
 /// A bundle as Ceres sees it. Its parameters are the common ones, in units of what moves the residuals by 1 at the
 /// start while all others are fixed, and one whose steps are the share that the cycles' own take of the steps that
 /// they have to gain by, in units of what moves the residuals by 1 from where it is. Its residuals are one a common
@@ -171,9 +226,11 @@ namespace {
 class BundleCost : public ceres::CostFunction, public ceres::IterationCallback {
  public:
   /// `radius`: of the region in which Ceres trusts the derivatives at `start`. `tolerance`: a gain of this share of the
-  /// sum of squares ends the solve.
-  BundleCost(const Bundle& bundle, Bundle::Point start, double radius, double tolerance)
+  /// sum of squares ends the solve. So does a parameter that comes to press against its `bounds`: Ceres cuts steps off
+  /// there without looking for the step of the others that belongs to it, and hardly moves on.
+  BundleCost(const Bundle& bundle, Bundle::Point start, double radius, double tolerance, std::vector<Bound> bounds)
       : bundle_(bundle),
+        bounds_(std::move(bounds)),
         tolerance_(tolerance),
         first_radius_(radius),
         radius_(radius),
@@ -220,7 +277,7 @@ class BundleCost : public ceres::CostFunction, public ceres::IterationCallback {
 
   ceres::CallbackReturnType operator()(const ceres::IterationSummary& iteration) override {
     radius_ = iteration.trust_region_radius;
-    return ceres::SOLVER_CONTINUE;
+    return pressing(bounds_, *base_.point).empty() ? ceres::SOLVER_CONTINUE : ceres::SOLVER_TERMINATE_SUCCESSFULLY;
   }
 
   /// The better one of the point where Ceres is and the last that it tried: a step whose gain was small enough to end
@@ -273,6 +330,7 @@ class BundleCost : public ceres::CostFunction, public ceres::IterationCallback {
   }
 
   const Bundle& bundle_;
+  std::vector<Bound> bounds_;
   double tolerance_;
   double first_radius_;
   double radius_;
@@ -299,41 +357,18 @@ int most_iterations(const Problem& problem, const SolveOptions& options, std::si
   return static_cast<int>(std::min<double>(options.max_iterations, std::max(kFewest, kMostEvaluations / evaluations)));
 }
 
-/// A time of the sensor of a hundredth of the slip leaves no trace, and none is not a value that derivatives lead to.
-constexpr double kLeastSensorTime = 1e-4;  // (time / Scales::sensor_time_unit_s)^2
-
-constexpr double kMostRelaxation = 0.95;  // of k: a spring that relaxes by all of it is none
-constexpr double kShortestRise = 1e-3;    // of the longest: over before the next sample
-
-void hold(ceres::Problem& ceres, double* parameters, const Problem& problem, const SolveOptions& options,
+/// Holds the `fixed` columns, and keeps others within these bounds.
+void hold(ceres::Problem& ceres, double* parameters, const std::vector<Index>& fixed, const std::vector<Bound>& bounds,
           const Eigen::VectorXd& units) {
-  const CommonColumns columns(problem);
-  std::vector<int> constant;
-  for (const Index column : columns.held(options.held)) constant.push_back(static_cast<int>(column));
-  if (!constant.empty()) {
+  if (!fixed.empty()) {
+    const std::vector<int> constant(fixed.begin(), fixed.end());
     ceres.SetManifold(parameters, new ceres::SubsetManifold(ceres.ParameterBlockSize(parameters), constant));
   }
-  const auto bound = [&](Coordinate coordinate, double least, std::optional<double> most) {
-    if (options.held[static_cast<std::size_t>(coordinate)]) return;
-    for (std::size_t r = 0; r < problem.recordings.size(); ++r) {
-      const std::optional<Index> column = columns.find(r, coordinate);
-      if (!column) continue;
-      ceres.SetParameterLowerBound(parameters, static_cast<int>(*column), least / units(*column));
-      if (most) ceres.SetParameterUpperBound(parameters, static_cast<int>(*column), *most / units(*column));
-    }
-  };
-  bound(kFrictionRate, kLeastRate, kMostRate);
-  bound(kSensorTime, kLeastSensorTime, std::nullopt);
-  if (options.damped) bound(kDamping, 0.0, std::nullopt);
-  bound(kRelaxation, 0.0, kMostRelaxation);
-  double longest_m = 0.0;
-  double longest_s = 0.0;
-  for (const BlockFit& recording : problem.recordings) {
-    if (const auto& rise = recording.level().reloading) longest_m = std::max(longest_m, rise->longest_m);
-    if (const auto& relaxing = recording.scales().relaxing) longest_s = std::max(longest_s, relaxing->longest_s);
+  for (const Bound& bound : bounds) {
+    const auto column = static_cast<int>(bound.column);
+    ceres.SetParameterLowerBound(parameters, column, bound.least / units(bound.column));
+    if (std::isfinite(bound.most)) ceres.SetParameterUpperBound(parameters, column, bound.most / units(bound.column));
   }
-  if (longest_m > 0.0) bound(kReloadLength, std::log(kShortestRise * longest_m), std::log(longest_m));
-  if (longest_s > 0.0) bound(kRelaxationTime, std::log(kShortestRise * longest_s), std::log(longest_s));
 }
 
 /// Joined ramps start at the solution for the cycles by themselves: nearly whole steps. Damped ones move a long chain
@@ -369,23 +404,43 @@ ceres::Solver::Options solver_options(const Problem& problem, const SolveOptions
 }  // namespace
 
 double solve_together(std::span<BlockFit> recordings, const SweepTerms& sweep, const SolveOptions& options) {
+  constexpr int kMostRuns = 4;
   silence_solver_log();
   const Problem problem{recordings, sweep};
   const Bundle bundle(problem, options);
-  std::optional<Bundle::Point> start = bundle.start(1.0 / first_radius(options));
-  if (!start) return std::numeric_limits<double>::infinity();
-  ceres::Problem ceres;
-  auto* cost =
-      new BundleCost(bundle, *std::move(start), first_radius(options), tolerance_of(options, bundle.residuals()));
-  Eigen::VectorXd parameters = cost->first();
-  ceres.AddResidualBlock(cost, nullptr, parameters.data());
-  hold(ceres, parameters.data(), problem, options, cost->units());
+  const std::vector<Bound> bounds = bounds_of(problem, options);
+  const std::vector<Index> held = CommonColumns(problem).held(options.held);
   ceres::Solver::Options solver = solver_options(problem, options, bundle.residuals());
-  solver.callbacks.push_back(cost);
-  ceres::Solver::Summary summary;
-  ceres::Solve(solver, &ceres, &summary);
-  bundle.put(cost->best(), recordings);
-  return summary.IsSolutionUsable() ? cost->best_sum() : std::numeric_limits<double>::infinity();
+  double sum = std::numeric_limits<double>::infinity();
+  std::vector<Index> at_ends;
+  bool is_settled = false;
+  for (int run = 0; run < kMostRuns && solver.max_num_iterations > 0; ++run) {
+    std::optional<Bundle::Point> start = bundle.start(1.0 / first_radius(options));
+    if (!start) break;
+    std::vector<Index> pressed = pressing(bounds, *start);
+    if (is_settled && pressed == at_ends) break;
+    at_ends = std::move(pressed);
+    std::vector<Index> fixed;
+    std::ranges::merge(held, at_ends, std::back_inserter(fixed));
+    std::vector<Bound> free = bounds;
+    std::erase_if(free, [&](const Bound& bound) { return std::ranges::binary_search(at_ends, bound.column); });
+    ceres::Problem ceres;
+    auto* cost = new BundleCost(bundle, *std::move(start), first_radius(options),
+                                tolerance_of(options, bundle.residuals()), free);
+    Eigen::VectorXd parameters = cost->first();
+    ceres.AddResidualBlock(cost, nullptr, parameters.data());
+    hold(ceres, parameters.data(), fixed, free, cost->units());
+    solver.callbacks = {cost};
+    ceres::Solver::Summary summary;
+    ceres::Solve(solver, &ceres, &summary);
+    bundle.put(cost->best(), recordings);
+    if (!summary.IsSolutionUsable()) break;
+    sum = cost->best_sum();
+    is_settled = summary.termination_type != ceres::USER_SUCCESS;
+    if (is_settled && at_ends.empty()) break;
+    solver.max_num_iterations -= static_cast<int>(summary.iterations.size());
+  }
+  return sum;
 }
 
 double solve(BlockFit& fit, const SolveOptions& options) {

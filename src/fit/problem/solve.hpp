@@ -85,8 +85,9 @@ class Bundle {
 };
 
 /// Levenberg-Marquardt by Ceres from the recordings' parameters (what they share: the first one's); the cycles' own are
-/// eliminated first (Elimination). Leaves the solution in all of them. Returns the sum of squared residuals, infinity
-/// where the start is outside the model.
+/// eliminated first (Elimination). A parameter that presses against an end of its range is held there while the others
+/// go on, and let go where the sum falls inwards. Leaves the solution in all recordings. Returns the sum of squared
+/// residuals, infinity where the start is outside the model.
 double solve_together(std::span<BlockFit> recordings, const SweepTerms& sweep, const SolveOptions& options);
 /// Solves for one recording by itself, as solve_together does.
 double solve(BlockFit& fit, const SolveOptions& options);

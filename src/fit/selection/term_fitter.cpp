@@ -295,7 +295,7 @@ DampedFit TermFitter::rival_of(const Minimum& minimum) const {
 }
 
 std::optional<DampedFit> TermFitter::draft(const BlockFit& near) const {
-  std::optional<Minimum> rough = solved(cycles_, near);
+  std::optional<Minimum> rough = solved(thin_of(*cycles_), near);
   if (!rough) return std::nullopt;
   const bool wanders = rough->blocks.level().per_cycle;
   std::optional<DampedFit> fit =
@@ -328,6 +328,15 @@ TermFitter::Cycles TermFitter::set_of(std::vector<CycleData> cycles) const {
   std::optional<CycleSet> set =
       CycleSet::create(std::move(cycles), std::move(middles), plain_.blocks.level(), plain_.blocks.scales());
   return set ? std::make_shared<const CycleSet>(*std::move(set)) : nullptr;
+}
+
+TermFitter::Cycles TermFitter::thin_of(const CycleSet& cycles) const {
+  return set_of(some_of(cycles.cycles(), cycles.cycles().size()));
+}
+
+std::optional<BlockFit> TermFitter::settled_on(const Cycles& cycles, const BlockFit& near, const Held& held) const {
+  const std::optional<BlockFit> thin = settled(carried_to(thin_of(*cycles), near), held);
+  return settled(carried_to(cycles, thin ? *thin : near), held);
 }
 
 BlockFit TermFitter::started(BlockFit blocks, const Coordinates& values) const {
@@ -497,7 +506,7 @@ std::optional<DampedFit> TermFitter::without_outliers(const BlockFit& rough) con
   const double half_width_s = is_averaged ? half_width_s_ : half_width_of(plain_.blocks, rough.sensor().average_s);
   const Cycles clean = set_of(cycles_without(excluded, half_width_s));
   if (!clean) return std::nullopt;
-  std::optional<BlockFit> blocks = settled(carried_to(clean, rough), held_);
+  std::optional<BlockFit> blocks = settled_on(clean, rough, held_);
   if (!blocks) return std::nullopt;
   return DampedFit{*std::move(blocks), false, held_, std::nullopt, half_width_s, std::move(excluded)};
 }
@@ -507,7 +516,7 @@ std::optional<DampedFit> TermFitter::without_damping(DampedFit fit) const {
   fit.refused_damping = fit.blocks.parameters.values(kDamping);
   fit.held[kDamping] = true;
   fit.blocks.parameters.values(kDamping) = 0.0;
-  std::optional<BlockFit> blocks = settled(std::move(fit.blocks), fit.held);
+  std::optional<BlockFit> blocks = settled_on(fit.blocks.set(), fit.blocks, fit.held);
   if (!blocks) return std::nullopt;
   fit.blocks = *std::move(blocks);
   return finish_settled(input_, std::move(fit));

@@ -114,6 +114,10 @@ class TermFitter {
   [[nodiscard]] std::vector<CycleData> cycles_without(const std::vector<std::size_t>& excluded,
                                                       double half_width_s) const;
   [[nodiscard]] std::vector<CycleData> some_of(const std::vector<CycleData>& cycles, std::size_t count) const;
+  /// These cycles, their slips with no more samples than their shape needs.
+  [[nodiscard]] Cycles thin_of(const CycleSet& cycles) const;
+  /// The solution near another one, but for its rise: by few samples to the end of a valley, then by all of them.
+  [[nodiscard]] std::optional<BlockFit> settled_on(const Cycles& cycles, const BlockFit& near, const Held& held) const;
   /// The blocks with these values, their cycles by the features of their slips.
   [[nodiscard]] BlockFit started(BlockFit blocks, const Coordinates& values) const;
   [[nodiscard]] Scales scales_of(Terms terms, double average_s) const;

@@ -18,10 +18,6 @@
 
 namespace slipfit::fit {
 
-bool is_misfit(const SweepSolution& solution) {
-  return solution.chi2 > thresholds::kSweepMisfit * solution.degrees_of_freedom;
-}
-
 double speed_ratio(std::span<const SweepRecording> recordings) {
   std::vector<double> speeds;
   for (const SweepRecording& sweep : recordings) {

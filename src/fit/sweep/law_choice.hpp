@@ -20,9 +20,6 @@ struct LawChoice {
   std::string reason;
 };
 
-/// The model leaves something out of the recordings.
-bool is_misfit(const SweepSolution& solution);
-
 /// Returns the ratio of the highest speed to the lowest among the recordings in the fit.
 double speed_ratio(std::span<const SweepRecording> recordings);
 

@@ -94,6 +94,10 @@ bool SweepSolution::can_show_trend(std::size_t fewest) const {
   return recordings.size() >= fewest && ratio_of_ends(speeds_m_per_s()) > thresholds::kTrendSpeedRatio;
 }
 
+bool is_misfit(const SweepSolution& solution) {
+  return solution.chi2 > thresholds::kSweepMisfit * solution.degrees_of_freedom;
+}
+
 std::optional<SweepSolution> at_minimum(SweepSolution solution, const Held& held, const Accuracy& accuracy) {
   solution.held = held;
   solution.chi2 = solve(solution, held, accuracy);
@@ -166,7 +170,8 @@ std::optional<NormalSolution> leave_out(const NormalSolution& all, std::size_t r
     others.solution = moved_by(std::move(others.solution), step);
     return others;
   }
-  std::optional<SweepSolution> refitted = at_minimum(std::move(others.solution), solution.held);
+  const Accuracy accuracy = is_misfit(solution) ? kCompared : Accuracy{};
+  std::optional<SweepSolution> refitted = at_minimum(std::move(others.solution), solution.held, accuracy);
   if (!refitted) return std::nullopt;
   others.solution = *std::move(refitted);
   others.normals = normals_of(others.solution.problem());
@@ -192,7 +197,7 @@ void follow(const BlockFit& few, BlockFit& all) {
       for (std::size_t j = 0; j < own.size(); ++j) move[j] = there[j] - own[j];
     }
     for (std::size_t j = 0; j < own.size(); ++j) own[j] += move[j];
-    if (!all.model(i).is_inside(all.values(i))) own = there;
+    if (!std::isfinite(all.cycle_sum_of_squares(i))) own = there;
   }
 }
 

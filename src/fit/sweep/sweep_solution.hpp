@@ -33,6 +33,9 @@ struct SweepSolution {
   }
 };
 
+/// The model leaves something out of the recordings.
+bool is_misfit(const SweepSolution& solution);
+
 /// How far a sweep is solved.
 struct Accuracy {
   double tolerance = 1e-4;  ///< SolveOptions::tolerance
