@@ -503,6 +503,7 @@ class Sticks {
     block_ = std::max<std::size_t>(1, static_cast<std::size_t>(samples) / kBlocksPerPeriod);
     step_s_ = static_cast<double>(block_) * recording.sample_interval_s();
     if (period_s_ > 0.0) collect();
+    keep_longest_part();
   }
 
   [[nodiscard]] std::optional<StickRipple> largest_line() const {
@@ -524,6 +525,25 @@ class Sticks {
       while (end < part.size() && part[end] == CyclePart::Stick) ++end;
       add(begin, end);
     }
+  }
+
+  /// Keeps the sticks on one side of a gap that is longer than all sticks together: a spectrum over the gap would cost
+  /// more than all the rest, and the sticks of one side show a line by themselves.
+  void keep_longest_part() {
+    const auto blocks_in = [](std::span<const Stick> sticks) {
+      std::size_t blocks = 0;
+      for (const Stick& stick : sticks) blocks += static_cast<std::size_t>(stick.force.size());
+      return blocks;
+    };
+    const std::span<const Stick> all(sticks_);
+    const std::size_t longest_gap = blocks_in(all);
+    std::span<const Stick> best;
+    for (std::size_t begin = 0, end = 0; begin < all.size(); begin = end) {
+      for (end = begin + 1; end < all.size() && all[end].first - all[end - 1].end() <= longest_gap;) ++end;
+      const std::span<const Stick> part = all.subspan(begin, end - begin);
+      if (blocks_in(part) > blocks_in(best)) best = part;
+    }
+    if (best.size() < all.size()) sticks_ = std::vector<Stick>(best.begin(), best.end());
   }
 
   /// Blocks begin at multiples of their length, so that all sticks lie on one grid.
