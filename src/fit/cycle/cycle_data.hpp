@@ -182,10 +182,11 @@ std::vector<CycleData> cut_cycles_of(std::span<const double> force, const Record
 /// clock.
 CycleData thinned(CycleData cycle, double middle_s, double half_period_s, double step_s);
 
-/// Returns the numbers of at most so many of `count` cycles, evenly from the first to the last. `most`: at least 2.
+/// Returns the indices of at most `most` of `count` cycles, evenly spread from the first to the last. `most`: at
+/// least 2.
 std::vector<std::size_t> spread_indices(std::size_t count, std::size_t most);
 
-/// The cycles of these numbers.
+/// Returns the cycles at these indices, at most `size` of them.
 std::vector<CycleData> spread_subset(const std::vector<CycleData>& cycles, std::size_t size);
 
 /// Holds the times within a stick bin at which a smooth curve gives its mean and its least-squares slope over the

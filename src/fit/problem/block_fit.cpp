@@ -92,10 +92,9 @@ BlockFit BlockFit::with_fewer_cycles(std::size_t most) const {
     references_s.push_back(reference_s(i));
     locals.push_back(parameters.cycles[i]);
   }
-  std::optional<BlockFit> fewer = create(std::move(cycles), std::move(references_s), scales_, level());
-  if (!fewer) return *this;
-  fewer->parameters = {parameters.values, parameters.level, std::move(locals)};
-  return *std::move(fewer);
+  BlockFit fewer = create(std::move(cycles), std::move(references_s), scales_, level()).value();
+  fewer.parameters = {parameters.values, parameters.level, std::move(locals)};
+  return fewer;
 }
 
 void BlockFit::start_at(const Coordinates& start) {

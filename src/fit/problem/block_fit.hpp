@@ -50,7 +50,8 @@ class BlockFit {
   /// Returns a fit of the same cycles above another level, with all parameters 0.
   [[nodiscard]] BlockFit with_level(LevelModel level, const Scales& scales) const;
 
-  /// Returns a fit of at most so many of the cycles, from the first to the last, at the same parameters.
+  /// Returns a fit of at most so many of the cycles, from the first to the last, at the same parameters. `most`: at
+  /// least thresholds::kFewestSlips.
   [[nodiscard]] BlockFit with_fewer_cycles(std::size_t most) const;
 
   /// Rig and contact as in `start`; a rise after slips only where that has one.

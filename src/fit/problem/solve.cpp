@@ -177,6 +177,7 @@ struct Bound {
   double most = std::numeric_limits<double>::infinity();
 };
 
+/// In ascending order of the columns, each once.
 std::vector<Bound> bounds_of(const Problem& problem, const SolveOptions& options) {
   const CommonColumns columns(problem);
   std::vector<Bound> bounds;
@@ -198,6 +199,9 @@ std::vector<Bound> bounds_of(const Problem& problem, const SolveOptions& options
   }
   if (longest_m > 0.0) bound(kReloadLength, std::log(kShortestRise * longest_m), std::log(longest_m));
   if (longest_s > 0.0) bound(kRelaxationTime, std::log(kShortestRise * longest_s), std::log(longest_s));
+  std::ranges::sort(bounds, {}, &Bound::column);
+  const auto again = std::ranges::unique(bounds, {}, &Bound::column);  // what recordings share
+  bounds.erase(again.begin(), again.end());
   return bounds;
 }
 
@@ -213,8 +217,6 @@ std::vector<Index> pressing(const std::vector<Bound>& bounds, const Bundle::Poin
     const bool leaves = slope > 0.0 ? value <= bound.least + near : value >= bound.most - near;
     if (leaves && slope != 0.0) columns.push_back(bound.column);
   }
-  std::sort(columns.begin(), columns.end());
-  columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
   return columns;
 }
 

@@ -35,9 +35,10 @@ std::string hindrance(const FitInput& input, const DampedFit& coulomb) {
   return samples < thresholds::kShapeSamples ? too_few_samples(samples, step_s) : std::string();
 }
 
-/// An average of the sensor takes as many parameters as a slip distance and explains the roundness, not the asymmetry
-/// of the slip: a fit in its place, or with both, need not halve the stacked residual.
-bool is_rounded(const DampedFit& fit) {
+/// Returns whether the fit has one of the two terms already. An average takes as many parameters as a slip distance and
+/// explains how round a slip is, not how asymmetric: a fit with the other term, or with both, need not halve the
+/// stacked residual.
+bool has_either_term(const DampedFit& fit) {
   return fit.average || fit.blocks.scales().law == FrictionLaw::Weakening;
 }
 
@@ -53,7 +54,7 @@ Candidate judged(Candidate candidate, const DampedFit& fit, const DampedFit& cou
     candidate.reason += fmt::format("; the standard error of the damping ratio is {:.2g}", damping_error(fit));
     return candidate;
   }
-  const double most = is_rounded(coulomb) ? before : thresholds::kHalvedStack * before;
+  const double most = has_either_term(coulomb) ? before : thresholds::kHalvedStack * before;
   candidate.chosen = gain > thresholds::kTierPrice && sigmas > thresholds::kClearSigmas && after <= most;
   candidate.reason += candidate.chosen
                           ? ": the slip distance is justified"
@@ -66,16 +67,16 @@ constexpr double kFilterCorner = 3.0;  // over w_n, with which the search for a 
 constexpr double kFilterReach = 3.0;   // of 1 / w_n: a filter of fourth order at 3 w_n decays to e^-3
 constexpr double kHopeful = 1.1 * thresholds::kHalvedStack;
 
-/// False where the cycles that compare the terms show that this minimum cannot halve what the slips of `poorer` miss
-/// (`missed`, the stacked residual), if it has to.
+/// Returns whether the cycles that compare the terms allow for a stacked residual that is half of `missed`, that of
+/// `poorer`. It is not required of a fit that takes the place of either term.
 bool explains(const Minimum& minimum, const DampedFit& poorer, double missed) {
-  if (is_rounded(poorer)) return true;
+  if (has_either_term(poorer)) return true;
   const StackedResidual after = stacked_residual(minimum.blocks, poorer.blocks);
   return after.size * after.size - after.by_chance * after.by_chance < std::pow(kHopeful * missed, 2);
 }
 
-/// False where these cycles show that the minimum will not be taken in place of Coulomb friction: it explains them less
-/// well, or not enough more.
+/// Returns whether the minimum may replace Coulomb friction: by the cycles that compare the terms, its AICc is not
+/// clearly higher, and it may halve the stacked residual.
 bool promises(const TermFitter& fitter, const Minimum& minimum, const DampedFit& coulomb, double missed) {
   return fitter.gain_on_some(minimum, fitter.plain()) > -thresholds::kTierPrice && explains(minimum, coulomb, missed);
 }
@@ -96,16 +97,6 @@ std::optional<DampedFit> fit_weakening(const FitInput& input, const TermFitter& 
   return fit;
 }
 
-/// F_s - F_k lies between half of the fall and the drop between the ramps whatever D_c and zeta are, and slips rest:
-/// others follow the samples by other means than a slip.
-bool has_slips_of_the_model(const DampedFit& fit) {
-  constexpr double kRoom = 0.05;
-  const SawtoothFit sawtooth = fit_sawtooth(fit);
-  const double difference = mean_onset_force(fit);
-  return resting_share(fit.blocks) >= thresholds::kRestickShare && difference > (0.5 - kRoom) * sawtooth.fall &&
-         difference < (1.0 + kRoom) * sawtooth.drop;
-}
-
 /// A fit of both, by how much its AICc is lower than the rival's, and whether no other minimum is as good.
 struct Both {
   DampedFit fit;
@@ -114,8 +105,8 @@ struct Both {
   std::optional<DampedFit> other{};  ///< as good
 };
 
-/// All cycles are fitted only where the cycles that compare the terms show that it may be taken. `missed`: stacked
-/// residual of `rival`.
+/// Returns the fit of all cycles with both terms if the cycles that compare the terms show that it may be chosen, and
+/// otherwise their own fit. `missed` is the stacked residual of `rival`.
 std::optional<Both> best_of_both(const FitInput& input, const TermFitter& fitter, const DampedFit& rival,
                                  double missed) {
   const auto [minima, is_complete] = fitter.minima({.average = true, .weakening = true});
@@ -159,6 +150,16 @@ std::optional<Both> best_of_both(const FitInput& input, const TermFitter& fitter
   Both both{std::move(fits[0]), gain, is_same || std::abs(ahead) > thresholds::kTierPrice};
   if (!both.is_sure) both.other = std::move(fits[1]);
   return both;
+}
+
+/// F_s - F_k lies between half of the fall and the drop between the ramps whatever D_c and zeta are, and slips rest:
+/// others follow the samples by other means than a slip.
+bool has_slips_of_the_model(const DampedFit& fit) {
+  constexpr double kRoom = 0.05;
+  const SawtoothFit sawtooth = fit_sawtooth(fit);
+  const double difference = mean_onset_force(fit);
+  return resting_share(fit.blocks) >= thresholds::kRestickShare && difference > (0.5 - kRoom) * sawtooth.fall &&
+         difference < (1.0 + kRoom) * sawtooth.drop;
 }
 
 /// Returns what a fit of both says for and against it, compared with `single`, the fit with one of the two. `before` is

@@ -210,11 +210,11 @@ SweepSolution drafted(SweepSolution start, const Held& held, const Accuracy& acc
   return start;
 }
 
-/// The recordings `used` of the sweep, as their own fits left them.
-SweepSolution start_of(const SweepData& data, Sharing sharing, FrictionLaw law, const std::vector<std::size_t>& used) {
+/// Returns the recordings of the sweep as their own fits left them.
+SweepSolution start_of(const SweepData& data, Sharing sharing, FrictionLaw law) {
   SweepSolution solution;
   solution.sweep = {sharing, data.steady, data.units};
-  for (const std::size_t i : used) {
+  for (const std::size_t i : data.fitted) {
     const DampedFit& single = *data.single[i];
     const Scales scales = scales_in_sweep(data, i, law);
     BlockFit recording(single.blocks.set(), scales);
@@ -303,7 +303,7 @@ class SweepFitter {
 
   /// The best of starts from the recordings' own fits at several rates: a wrong sign of alpha is a minimum of its own.
   [[nodiscard]] std::optional<SweepSolution> draft_of(const Kind& kind, Sharing sharing) const {
-    SweepSolution start = start_of(data_, sharing, kind.law, data_.fitted);
+    SweepSolution start = start_of(data_, sharing, kind.law);
     set_start(start);
     const Held held = held_of(fixed_);
     if (kind.law == FrictionLaw::Coulomb) return existing(drafted(std::move(start), held, kRough));
