@@ -200,8 +200,8 @@ std::vector<Bound> bounds_of(const Problem& problem, const SolveOptions& options
   if (longest_m > 0.0) bound(kReloadLength, std::log(kShortestRise * longest_m), std::log(longest_m));
   if (longest_s > 0.0) bound(kRelaxationTime, std::log(kShortestRise * longest_s), std::log(longest_s));
   std::ranges::sort(bounds, {}, &Bound::column);
-  const auto again = std::ranges::unique(bounds, {}, &Bound::column);  // what recordings share
-  bounds.erase(again.begin(), again.end());
+  const auto same = [](const Bound& left, const Bound& right) { return left.column == right.column; };
+  bounds.erase(std::unique(bounds.begin(), bounds.end(), same), bounds.end());  // what recordings share
   return bounds;
 }
 
