@@ -294,12 +294,9 @@ class Assembler {
   fit::Intervals intervals_;
 };
 
-/// `stated`: what the user holds. `known`: an average of the sensor that was found before.
-std::optional<SweepFit> fit_at_once(std::span<const SweepRecording> recordings, const HeldParameters& stated,
-                                    const FitOptions& options, const std::optional<fit::FittedAverage>& known = {}) {
-  SweepData data = fit::prepare_sweep(recordings, options, known);
-  if (data.fitted.size() < 2) return std::nullopt;
-  data = fit::with_relaxation(std::move(data), recordings, options.held);
+/// Fits prepared recordings. `stated`: what the user holds.
+std::optional<SweepFit> fit_prepared(std::span<const SweepRecording> recordings, SweepData data,
+                                     const HeldParameters& stated, const FitOptions& options) {
   if (options.notify_step) options.notify_step(fmt::format("fitting {} recordings together", data.fitted.size()));
   std::optional<fit::SweepFits> fits = fit::solve_sweep(data, options);
   if (!fits) return std::nullopt;
@@ -315,12 +312,15 @@ std::optional<SweepFit> fit_at_once(std::span<const SweepRecording> recordings, 
 }  // namespace
 
 std::optional<SweepFit> fit_sweep(std::span<const SweepRecording> recordings, const FitOptions& options) {
-  std::optional<SweepFit> sweep = fit_at_once(recordings, options.held, options);
+  SweepData data = fit::prepare_sweep(recordings, options);
+  if (data.fitted.size() < 2) return std::nullopt;
+  data = fit::with_relaxation(std::move(data), recordings, options.held);
+  std::optional<SweepFit> sweep = fit_prepared(recordings, data, options.held, options);
   if (!sweep || options.held.damping_ratio || sweep->ring_down_used) return sweep;
   if (!fit::is_damping_open(sweep->result, recordings)) return sweep;
   FitOptions undamped = options;
   undamped.held.damping_ratio = 0.0;
-  std::optional<SweepFit> simpler = fit_at_once(recordings, options.held, undamped, fit::found_average(sweep->result));
+  std::optional<SweepFit> simpler = fit_prepared(recordings, std::move(data), options.held, undamped);
   if (!simpler) return sweep;
   if (!simpler->ring_down_used) fit::report_open_damping(simpler->result);
   return simpler;

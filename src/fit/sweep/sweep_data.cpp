@@ -154,11 +154,10 @@ Scales scales_in_sweep(const SweepData& data, std::size_t recording, FrictionLaw
   return scales;
 }
 
-SweepData prepare_sweep(std::span<const SweepRecording> recordings, const FitOptions& options,
-                        const std::optional<FittedAverage>& known) {
+SweepData prepare_sweep(std::span<const SweepRecording> recordings, const FitOptions& options) {
   SweepData data;
   data.notify_step = options.notify_step;
-  OwnFits own = fit_each(recordings, options.held, known);
+  OwnFits own = fit_each(recordings, options.held);
   data.single = std::move(own.fits);
   data.average = own.average;
   data.rounding_s2 = own.rounding_s2;

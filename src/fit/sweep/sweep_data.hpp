@@ -38,9 +38,8 @@ struct SweepData {
   std::function<void(const std::string&)> notify_step;  ///< FitOptions
 };
 
-/// `known`: fit_each.
-SweepData prepare_sweep(std::span<const SweepRecording> recordings, const FitOptions& options,
-                        const std::optional<FittedAverage>& known = {});
+/// Fits the recordings one by one.
+SweepData prepare_sweep(std::span<const SweepRecording> recordings, const FitOptions& options);
 
 /// Returns F_s - cV above F_k of a recording on its own, as a mean over its cycles; `level_of` returns that of the
 /// force level F_k(0+).
