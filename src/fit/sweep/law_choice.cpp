@@ -84,23 +84,17 @@ SweepOutcome coulomb_outcome(const SweepData& data, const SweepFits& fits) {
 
 ChosenLaw choose_law(const SweepData& data, SweepFits fits, std::optional<Tier> tier, double speeds) {
   LawChoice choice = tier ? LawChoice{*tier == Tier::Velocity, "asked for by --tier"} : choose_by_chance(fits, speeds);
-  std::optional<SweepOutcome> outcome;
-  if (choice.velocity || !fits.coulomb) {
-    fits.velocity = settled(fits.velocity);
-    outcome.emplace(with_left_out(data, fits.velocity));
-  }
   std::optional<SweepOutcome> coulomb;
   if (choice.velocity && !tier && fits.coulomb && is_misfit(fits.velocity)) {
-    coulomb.emplace(coulomb_outcome(data, fits));
-    choice = choose_by_left_out(left_out_error(*outcome), left_out_error(*coulomb));
+    coulomb = coulomb_outcome(data, fits);
+    const double velocity_error = left_out_error(with_left_out(data, fits.velocity));
+    choice = choose_by_left_out(velocity_error, left_out_error(*coulomb));
   }
-  if (choice.velocity || !fits.coulomb) {
-    outcome.emplace(with_intervals(data, *std::move(outcome)));
-  } else {
-    outcome.emplace(coulomb ? *std::move(coulomb) : coulomb_outcome(data, fits));
-  }
+  const bool depends_on_speed = choice.velocity || !fits.coulomb;
+  if (!depends_on_speed && !coulomb) coulomb = coulomb_outcome(data, fits);
+  SweepOutcome outcome = depends_on_speed ? outcome_of(data, settled(fits.velocity)) : *std::move(coulomb);
   std::vector<Candidate> candidates = candidates_of(fits, choice);
-  return {*std::move(outcome), std::move(choice), std::move(candidates)};
+  return {std::move(outcome), std::move(choice), std::move(candidates)};
 }
 
 namespace {
