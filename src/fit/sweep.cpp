@@ -320,6 +320,7 @@ std::optional<SweepFit> fit_sweep(std::span<const SweepRecording> recordings, co
   if (!fit::is_damping_open(sweep->result, recordings)) return sweep;
   FitOptions undamped = options;
   undamped.held.damping_ratio = 0.0;
+  if (!fit::relaxes(data)) data = fit::prepare_sweep(recordings, undamped, fit::found_average(sweep->result));
   std::optional<SweepFit> simpler = fit_prepared(recordings, std::move(data), options.held, undamped);
   if (!simpler) return sweep;
   if (!simpler->ring_down_used) fit::report_open_damping(simpler->result);

@@ -53,8 +53,9 @@ std::optional<double> mean_length_m(const std::vector<std::optional<DampedFit>>&
 
 class OwnFitter {
  public:
-  OwnFitter(std::span<const SweepRecording> recordings, const HeldParameters& held)
-      : recordings_(recordings), held_(held) {}
+  OwnFitter(std::span<const SweepRecording> recordings, const HeldParameters& held,
+            const std::optional<FittedAverage>& known)
+      : recordings_(recordings), held_(held), known_(known) {}
 
   [[nodiscard]] OwnFits fit() const {
     OwnFits own;
@@ -65,8 +66,10 @@ class OwnFitter {
     }
     share_length(own);
     for (std::size_t i = 0; i < recordings_.size(); ++i) {
-      if (own.fits[i]) own.fits[i] = fit_as_sensed(input(i), *std::move(own.fits[i]));
+      if (!own.fits[i] || (known_ && !states_average(i))) continue;
+      own.fits[i] = fit_as_sensed(input(i), *std::move(own.fits[i]));
     }
+    if (known_) return averaged(own, *known_);
     share_average(own);
     if (!own.average) own.rounding_s2 = common_rounding_s2(recordings_, own.fits);
     return own;
@@ -142,6 +145,7 @@ class OwnFitter {
 
   std::span<const SweepRecording> recordings_;
   const HeldParameters& held_;
+  const std::optional<FittedAverage>& known_;
 };
 
 double median_stiffness(const OwnFits& own) {
@@ -205,8 +209,9 @@ std::optional<double> common_rounding_s2(std::span<const SweepRecording> recordi
   return together.exceeds_step(longest_step_s) ? std::optional(together.largest_variance_s2()) : std::nullopt;
 }
 
-OwnFits fit_each(std::span<const SweepRecording> recordings, const HeldParameters& held) {
-  OwnFits own = OwnFitter(recordings, held).fit();
+OwnFits fit_each(std::span<const SweepRecording> recordings, const HeldParameters& held,
+                 const std::optional<FittedAverage>& known) {
+  OwnFits own = OwnFitter(recordings, held, known).fit();
   const std::optional<StatedMass> mass = common_mass(recordings, own, held);
   if (!mass) return with_free_rises(std::move(own));
   // As with a stated average, where one was found
@@ -222,7 +227,7 @@ OwnFits fit_each(std::span<const SweepRecording> recordings, const HeldParameter
   }
   HeldParameters by_mass = held;
   by_mass.natural_frequency_rad_per_s = mass->frequency_rad_per_s(median_stiffness(own));
-  OwnFits with_mass = OwnFitter(sweep, by_mass).fit();
+  OwnFits with_mass = OwnFitter(sweep, by_mass, {}).fit();
   if (!explains_as_well(with_mass, own)) return with_free_rises(std::move(own));
   for (std::size_t i = 0; i < recordings.size(); ++i) {
     if (with_mass.fits[i] && own.fits[i]) with_mass.fits[i]->average = own.fits[i]->average;

@@ -31,7 +31,8 @@ std::optional<double> common_rounding_s2(std::span<const SweepRecording> recordi
 /// rise after slips, all are fitted with one, its length to be found together. Where some that state no average show
 /// one, and agree on it, all of these are fitted with the mean of it if half of them show it or they are explained
 /// better together; otherwise what all of them show together is reported. Where averaging obscures w_n, a mass that all
-/// state gives it.
-OwnFits fit_each(std::span<const SweepRecording> recordings, const HeldParameters& held);
+/// state gives it. `known` is an average that was found before, instead of a search for it.
+OwnFits fit_each(std::span<const SweepRecording> recordings, const HeldParameters& held,
+                 const std::optional<FittedAverage>& known);
 
 }  // namespace slipfit::fit

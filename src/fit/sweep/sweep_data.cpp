@@ -154,10 +154,11 @@ Scales scales_in_sweep(const SweepData& data, std::size_t recording, FrictionLaw
   return scales;
 }
 
-SweepData prepare_sweep(std::span<const SweepRecording> recordings, const FitOptions& options) {
+SweepData prepare_sweep(std::span<const SweepRecording> recordings, const FitOptions& options,
+                        const std::optional<FittedAverage>& known) {
   SweepData data;
   data.notify_step = options.notify_step;
-  OwnFits own = fit_each(recordings, options.held);
+  OwnFits own = fit_each(recordings, options.held, known);
   data.single = std::move(own.fits);
   data.average = own.average;
   data.rounding_s2 = own.rounding_s2;
@@ -190,6 +191,11 @@ SweepData prepare_sweep(std::span<const SweepRecording> recordings, const FitOpt
   data.units.stick_s = signal::median(sticks_s);
   data.units.speed_m_per_s = std::exp(log_speeds / static_cast<double>(data.fitted.size()));
   return data;
+}
+
+bool relaxes(const SweepData& data) {
+  return std::ranges::any_of(data.fitted,
+                             [&](std::size_t i) { return data.single[i]->blocks.scales().relaxing.has_value(); });
 }
 
 namespace {

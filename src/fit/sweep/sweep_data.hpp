@@ -38,8 +38,12 @@ struct SweepData {
   std::function<void(const std::string&)> notify_step;  ///< FitOptions
 };
 
-/// Fits the recordings one by one.
-SweepData prepare_sweep(std::span<const SweepRecording> recordings, const FitOptions& options);
+/// `known`: fit_each.
+SweepData prepare_sweep(std::span<const SweepRecording> recordings, const FitOptions& options,
+                        const std::optional<FittedAverage>& known = {});
+
+/// Returns whether the springs of the recordings relax.
+bool relaxes(const SweepData& data);
 
 /// Returns F_s - cV above F_k of a recording on its own, as a mean over its cycles; `level_of` returns that of the
 /// force level F_k(0+).
