@@ -297,7 +297,7 @@ std::string text_of(const Block& block) {
   Table table({Align::Left, Align::Right, Align::Left, Align::Left, Align::Left});
   for (const Row& row : block.rows) table.add({row.label, row.value, row.unit, row.interval, row.note});
   std::string text = "\n" + block.title + "\n" + table.text();
-  for (const std::string& sentence : block.sentences) text += "  - " + sentence + "\n";
+  for (const std::string& sentence : block.sentences) text += wrapped_text("  - ", sentence);
   return text;
 }
 

@@ -65,15 +65,15 @@ std::size_t shown_width(std::string_view text) {
 }
 
 std::vector<std::string> wrapped(const std::string& first, const std::string& text) {
+  const std::size_t indent = shown_width(first);
   std::vector<std::string> lines{first};
   std::size_t begin = 0;
   while (begin < text.size()) {
     const std::size_t end = std::min(text.find(' ', begin), text.size());
     const std::string word = text.substr(begin, end - begin);
-    const bool is_empty = lines.back().find_last_not_of(' ') + 1 <= first.size() && lines.back().size() == first.size();
+    const bool is_empty = shown_width(lines.back()) == indent;
     if (!is_empty && shown_width(lines.back()) + 1 + shown_width(word) > kLineWidth) {
-      lines.emplace_back(first.size(), ' ');
-      lines.back() += word;
+      lines.push_back(std::string(indent, ' ') + word);
     } else {
       lines.back() += (is_empty ? "" : " ") + word;
     }
@@ -133,6 +133,12 @@ DisplayUnit speed_unit(const std::string& given, std::optional<double> typical_m
     if (const auto unit = parse_unit(given, Dimension::Speed)) return {1.0 / unit.value().scale, given};
   }
   return display_unit("m/s", typical_m_per_s);
+}
+
+std::string with_error(const Estimate& estimate, const std::string& SI_unit) {
+  const DisplayUnit unit = display_unit(SI_unit, estimate.value);
+  const std::string text = with_error(scaled(estimate, unit.per_SI));
+  return unit.unit.empty() || text == "-" ? text : text + " " + unit.unit;
 }
 
 Estimate scaled(const Estimate& estimate, double factor) {
@@ -222,7 +228,14 @@ std::string Table::text() const {
     for (std::size_t i = 0; i < row.size(); ++i) {
       if (widths[i] == 0) continue;
       const std::string padding(widths[i] - shown_width(row[i]), ' ');
-      line += "  " + (columns_[i] == Align::Left ? row[i] + padding : padding + row[i]);
+      const bool is_last = i + 1 == columns_.size() && columns_[i] == Align::Left;
+      if (is_last && !row[i].empty()) {
+        const std::vector<std::string> lines = wrapped(line + "  ", row[i]);
+        for (std::size_t j = 0; j + 1 < lines.size(); ++j) text += lines[j] + "\n";
+        line = lines.back();
+      } else {
+        line += "  " + (columns_[i] == Align::Left ? row[i] + padding : padding + row[i]);
+      }
     }
     line.erase(line.find_last_not_of(' ') + 1);
     text += line + "\n";

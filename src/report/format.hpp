@@ -17,6 +17,8 @@ std::string rounded(double value, std::optional<double> uncertainty);
 
 /// "2.345 ± 0.012", the standard error with two digits; the value alone where there is no standard error.
 std::string with_error(const Estimate& estimate);
+/// "407.1 ± 2.2 µm", in the unit that suits the value.
+std::string with_error(const Estimate& estimate, const std::string& SI_unit);
 
 /// A unit with the prefix that brings `typical` to between 1 and 1000: value_SI * per_SI is in `unit`.
 struct DisplayUnit {
@@ -74,7 +76,7 @@ std::string wrapped_text(const std::string& first, const std::string& text);
 enum class Align { Left, Right };
 
 /// Lines of cells in columns that are as wide as their widest cell, two blanks apart, indented by two. A column without
-/// text is left out.
+/// text is left out. Where the last column is aligned left its cells are wrapped at kLineWidth.
 class Table {
  public:
   explicit Table(std::vector<Align> columns) : columns_(std::move(columns)) {}

@@ -29,7 +29,7 @@ std::string notes_text(const std::vector<Parameter>& parameters) {
       if (has_note(*other)) names += (names.empty() ? "" : ", ") + printable(info(other->id).words);
     }
     const bool is_of_all = std::ranges::all_of(parameters, has_note);
-    text += fmt::format("    {}: {}\n", is_of_all ? "all of them" : names, printable(note));
+    text += wrapped_text("    ", fmt::format("{}: {}", is_of_all ? "all of them" : names, printable(note)));
   }
   return text;
 }
@@ -52,7 +52,7 @@ std::string critical_speed_text(const Estimate& speed_m_per_s, const Estimate& l
   const std::string& note = speed_m_per_s.note;
   if (!speed_m_per_s.value) return text + (note.empty() ? "not known" : printable(note)) + "\n";
   text += estimate_text(speed_m_per_s, speed_unit(given_unit, speed_m_per_s.value));
-  if (!note.empty()) return text + "\n  " + printable(note) + "\n";
+  if (!note.empty()) return text + "\n" + wrapped_text("  ", printable(note));
   return text + fmt::format(", lambda there {}\n", estimate_text(lambda, display_unit("", {})));
 }
 
@@ -121,7 +121,7 @@ std::string recordings_text(std::span<const SweepEntry> entries, const SweepAnal
     table.add({printable(entries[i].id), speed_text(entries[i].recording.conditions()),
                fmt::format("{}{}", plain_words(name_of(sweep.recordings[i].motion)),
                            sweep.roles[i] == SweepRole::LeftOut ? " (left out)" : ""),
-               point != nullptr ? estimate_text(point->kinetic_friction_N, "N") : "-", estimate_text(measured, "m"),
+               point != nullptr ? with_error(point->kinetic_friction_N, "N") : "-", with_error(measured, "m"),
                point != nullptr ? estimate_text(point->spacing_left_out_m, "m") : "-",
                point != nullptr ? off_by(point->spacing_left_out_m, measured) : "-"});
   }
@@ -158,13 +158,13 @@ std::string warnings_text(const Warnings& warnings) {
 std::string assumed_text(const std::vector<std::string>& assumed) {
   if (assumed.empty()) return {};
   std::string text = "\nAssumed while reading\n";
-  for (const std::string& sentence : assumed) text += fmt::format("  - {}\n", printable(sentence));
+  for (const std::string& sentence : assumed) text += wrapped_text("  - ", printable(sentence));
   return text;
 }
 
 std::string to_text(const Recording& recording, const Analysis& analysis) {
   std::string text = headline_of(recording, analysis) + "\n";
-  if (!analysis.motion_reason.empty()) text += fmt::format("  {}\n", printable(analysis.motion_reason));
+  if (!analysis.motion_reason.empty()) text += wrapped_text("  ", printable(analysis.motion_reason));
   text += parameters_text(recording, analysis) + text_of(coefficients_block(analysis.coefficients));
   for (const Block& block : number_blocks(recording, analysis)) text += text_of(block);
   return text + text_of(quality_block(recording, analysis)) + warnings_text(analysis.warnings) +

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <regex>
 
+#include "report/format.hpp"
 #include "run_program.hpp"
 
 using Catch::Contains;
@@ -19,7 +21,21 @@ std::string fit_text(const std::vector<std::string>& options) {
   return run.out;
 }
 
+std::string unwrapped(const std::string& text) {
+  return std::regex_replace(text, std::regex("\n {4,}"), " ");
+}
+
 }  // namespace
+
+TEST_CASE("no line of all results is longer than a line of text") {
+  const std::string text = fit_text({"--speed", "10mm/s"});
+  std::size_t longest = 0;
+  for (std::size_t begin = 0; begin < text.size(); begin = text.find('\n', begin) + 1) {
+    longest = std::max(longest, slipfit::shown_width(text.substr(begin, text.find('\n', begin) - begin)));
+  }
+  CHECK(longest <= slipfit::kLineWidth);
+  CHECK(longest > slipfit::kLineWidth / 2);
+}
 
 TEST_CASE("a test without a finding states its level") {
   const std::string text = fit_text({"--speed", "10mm/s"});
@@ -27,12 +43,12 @@ TEST_CASE("a test without a finding states its level") {
 }
 
 TEST_CASE("AICc is printed with the compared model, the sign in words and the threshold") {
-  const std::string text = fit_text({"--speed", "10mm/s"});
+  const std::string text = unwrapped(fit_text({"--speed", "10mm/s"}));
   CHECK_THAT(
       text, Contains("lower than that of the undamped model: the added parameter is justified (10 lower is required)"));
   CHECK_THAT(text, Contains("a model with more parameters is justified") && !Contains("pays"));
   CHECK_THAT(fit_text({"--speed", "10mm/s", "--tier", "undamped"}), Contains("requested by --tier\n"));
-  CHECK_THAT(fit_text({"--speed", "10mm/s", "--tier", "sawtooth"}),
+  CHECK_THAT(unwrapped(fit_text({"--speed", "10mm/s", "--tier", "sawtooth"})),
              Contains("requested by --tier; the data alone: a model with more parameters is justified"));
 }
 

@@ -31,9 +31,7 @@ std::string label_with_unit(const std::string& name, const std::string& unit) {
 }
 
 std::string quantity_of(const Estimate& estimate, const std::string& SI_unit) {
-  const DisplayUnit unit = display_unit(SI_unit, estimate.value);
-  const std::string text = with_error(scaled(estimate, unit.per_SI));
-  return unbroken(unit.unit.empty() || text == "-" ? text : text + " " + unit.unit);
+  return unbroken(with_error(estimate, SI_unit));
 }
 
 std::string unbroken(const std::string& quantity) {
