@@ -3,7 +3,7 @@
 and swollen containers, refused in one line, soon and without much memory. With FOLDER the containers are left there and nothing else is
 done but to print them: a JSON list of [file, option...].
 
-The containers are made by other people's programs: Python's gzip, zipfile, openpyxl, scipy, h5py. TDMS is written by hand from its
+The containers are made by other people's programs: Python's gzip, zipfile, openpyxl, scipy, h5py, numpy. TDMS is written by hand from its
 description. Exit 77 where a module is missing and nothing else failed."""
 
 import gzip
@@ -132,6 +132,16 @@ def hdf5_files(folder, times, forces):
     with open(folder / "v73.mat", "r+b") as file:
         file.write(b"MATLAB 7.3 MAT-file, Platform: GLNXA64".ljust(116) + bytes(8) + struct.pack("<HH", 0x0200, 0x4D49))
     return ["group.h5", ("group.h5", "--variable", "/runs/first"), "table.h5", ("table.h5", "--variable", "array"), "v73.mat"]
+
+
+def numpy_files(folder, times, forces):
+    import numpy
+    both = numpy.column_stack([times, forces])
+    fields = numpy.zeros(len(times), dtype=[("time_s", ">f8"), ("force_N", "f8"), ("mark", "u1")])
+    fields["time_s"], fields["force_N"] = times, forces
+    for name, array in (("rows", both), ("columns", numpy.asfortranarray(both)), ("big", both.astype(">f8")), ("fields", fields)):
+        numpy.save(folder / f"{name}.npy", array)
+    return ["rows.npy", "columns.npy", "big.npy", "fields.npy"]
 
 
 def check_kinds(folder):
@@ -272,7 +282,7 @@ def make_containers(folder):
     (folder / "run.csv").write_text(text)
     missing = []
     made = plain_containers(folder, text.encode(), times, forces)
-    for make in (workbooks, mat_files, hdf5_files):
+    for make in (workbooks, mat_files, hdf5_files, numpy_files):
         try:
             made += make(folder, times, forces)
         except ImportError as error:

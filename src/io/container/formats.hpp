@@ -110,6 +110,9 @@ OpenFormat open_tdms;
 OpenFormat open_hdf5;
 OpenFormat open_mat;
 
+/// An array of numbers that NumPy saved (.npy). Errors: damaged_container, container_too_large.
+OpenFormat open_npy;
+
 /// The binary format of before 2007. Error: old_workbook.
 OpenFormat open_old_workbook;
 

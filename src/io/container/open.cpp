@@ -100,6 +100,7 @@ constexpr std::array kFormats = std::to_array<Format>({
     {"MATLAB 5.0 MAT-file"sv, 0, open_mat, visit_mat, "a MATLAB file", kVariable},
     {"\x89HDF\r\n\x1a\n"sv, 512, open_hdf5, visit_hdf5, "a MATLAB file",
      kVariable},  // behind a block of the user's own
+    {"\x93NUMPY"sv, 0, open_npy, nullptr, "an array of NumPy", {}},
     {"\xD0\xCF\x11\xE0\xA1\xB1\x1A\xE1"sv, 0, open_old_workbook, nullptr, {}, {}},
     {{}, 0, nullptr, nullptr, "plain text", {}},
 });
