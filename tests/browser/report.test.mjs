@@ -77,7 +77,7 @@ test("the demo's page draws, zooms, moves and reads off", async () => {
   const charts = await page.locator("svg.chart").evaluateAll((all) =>
     all.filter((svg) => !svg.closest(".still")).map((svg) => ({ id: svg.id, width: svg.getBoundingClientRect().width,
       paths: svg.querySelectorAll("path").length, label: svg.getAttribute("aria-label") })));
-  assert.deepEqual(charts.map((chart) => chart.id), ["spectrum", "cycles", "evolution", "pairs", "map", "speed", "pattern"]);
+  assert.deepEqual(charts.map((chart) => chart.id), ["spectrum", "cycles", "residuals", "evolution", "pairs", "map", "speed", "pattern"]);
   for (const chart of charts) assert.ok(chart.width > 300 && chart.paths > 2 && chart.label.length > 20, chart.id);
 
   const whole = await shownRange(page);
@@ -205,12 +205,12 @@ async function printedCharts(file) {
 
 test("every kind of page prints all of its charts", async () => {
   assert.deepEqual(await printedCharts(report(demo, "demo.html")),
-    ["trace", "spectrum", "cycles", "evolution", "pairs", "map", "speed", "pattern"]);
+    ["trace", "spectrum", "cycles", "residuals", "evolution", "pairs", "map", "speed", "pattern"]);
   slipfit("analyze", demo, "--speed", "10mm/s", "--report", shot("print-analyze.html"), "--quiet");
   assert.deepEqual(await printedCharts(shot("print-analyze.html")), ["trace", "spectrum", "cycles", "evolution", "pattern"]);
   addHum(demo, shot("print-hum.csv"));
   assert.deepEqual(await printedCharts(report(shot("print-hum.csv"), "print-hum.html")),
-    ["trace", "spectrum", "cycles", "evolution", "pairs", "map", "speed", "pattern"]);
+    ["trace", "spectrum", "cycles", "residuals", "evolution", "pairs", "map", "speed", "pattern"]);
   const rows = sweep("print", [4, 5, 7, 10, 20]).map((run) => `${run.name},${run.name}.csv,${run.speed},print`);
   fs.writeFileSync(shot("print.csv"), `id,file,speed [mm/s],group\n${rows.join("\n")}\n`);
   slipfit("fit", "--joint", shot("print.csv"), "--report", shot("print-sweep.html"), "--quiet");

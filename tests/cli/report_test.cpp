@@ -33,7 +33,8 @@ TEST_CASE("fit --plots writes the charts as SVG into a folder that it makes") {
   const RunWithPage example;
   const std::string plots = example.folder.path("plots");
   REQUIRE(run_slipfit({"fit", example.recording, "--speed", "20mm/s", "--plots", plots, "--quiet"}).exit_code == 0);
-  for (const char* name : {"trace", "spectrum", "cycles", "evolution", "pairs", "map", "speed", "pattern"}) {
+  for (const char* name :
+       {"trace", "spectrum", "cycles", "residuals", "evolution", "pairs", "map", "speed", "pattern"}) {
     CAPTURE(name);
     const std::string picture = test::content_of(plots + "/" + name + ".svg");
     CHECK(picture.rfind("<svg xmlns=", 0) == 0);

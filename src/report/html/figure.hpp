@@ -54,6 +54,7 @@ Figure trace_figure(const Source& source);
 std::vector<chart::Panel> small_trace(const Source& source, const std::string& name);
 Figure spectrum_figure(const Source& source);
 Figure cycles_figure(const Source& source);
+Figure residuals_figure(const Source& source);
 Figure evolution_figure(const Source& source);
 Figure pairs_figure(const Source& source);
 Figure map_figure(const Source& source);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -487,6 +488,106 @@ Figure pairs_figure(const Source& source) {
   figure.chart = chart::Chart{"Peaks and troughs", {}, {pairs_panel(source, pairs)}};
   figure.label = fmt::format("trough against peak of {} slips, with the line of the fitted damping, slope -{:.3g}",
                              pairs.size(), *source.background.reflection.value);
+  return figure;
+}
+
+namespace {
+
+constexpr std::size_t kPhaseBins = 24;  // of the stick, and as many of the slip
+constexpr std::size_t kFewestInBin = 3;
+
+/// Sums the residuals of a part of the cycle, one mean a cycle.
+struct PhaseBin {
+  std::size_t cycles = 0;
+  double sum = 0.0;
+  double square = 0.0;
+
+  void add(double mean) {
+    ++cycles;
+    sum += mean;
+    square += mean * mean;
+  }
+  [[nodiscard]] double mean() const { return sum / static_cast<double>(cycles); }
+  [[nodiscard]] double standard_error() const {
+    const auto count = static_cast<double>(cycles);
+    return std::sqrt(std::max(0.0, square / count - mean() * mean()) / (count - 1.0));
+  }
+};
+
+/// Adds the residuals of the samples between two times, which the bins divide evenly.
+void add_residuals(const Source& source, double begin_s, double end_s, std::span<PhaseBin> bins) {
+  if (!(end_s > begin_s)) return;
+  std::vector<double> sums(bins.size(), 0.0);
+  std::vector<double> counts(bins.size(), 0.0);
+  const SampleRange range = samples_between(source.recording, begin_s, end_s);
+  for (std::size_t i = range.begin; i < range.end; ++i) {
+    const double residual = source.recording.force()[i] - source.fitted[i];
+    const double share = (source.recording.time_s()[i] - begin_s) / (end_s - begin_s);
+    if (!std::isfinite(residual) || !(share >= 0.0 && share < 1.0)) continue;
+    const auto bin = static_cast<std::size_t>(share * static_cast<double>(bins.size()));
+    sums[bin] += source.force_unit.per_SI * residual;
+    counts[bin] += 1.0;
+  }
+  for (std::size_t bin = 0; bin < bins.size(); ++bin) {
+    if (counts[bin] > 0.0) bins[bin].add(sums[bin] / counts[bin]);
+  }
+}
+
+/// Returns the residuals over the cycle: the bins of the stick, then those of the slip.
+std::vector<PhaseBin> residuals_over_cycle(const Source& source) {
+  std::vector<PhaseBin> bins(2 * kPhaseBins);
+  const std::span<PhaseBin> all(bins);
+  const Cycle* before = nullptr;
+  for (const Cycle& cycle : source.analysis.cycle_table) {
+    if (cycle.used && cycle.onset_s && cycle.end_s) {
+      if (before != nullptr) add_residuals(source, *before->end_s, *cycle.onset_s, all.first(kPhaseBins));
+      add_residuals(source, *cycle.onset_s, *cycle.end_s, all.last(kPhaseBins));
+      before = &cycle;
+    } else {
+      before = nullptr;
+    }
+  }
+  return bins;
+}
+
+}  // namespace
+
+Figure residuals_figure(const Source& source) {
+  Figure figure{
+      "residuals", "What the model misses in every cycle",
+      "Mean residual (force minus fitted force) over the stick, from -1 to 0, and the slip, from 0 to 1, with "
+      "two standard errors of the mean over the cycles. Without a pattern the mean stays within them around "
+      "zero; a pattern is what the model does not describe."};
+  if (!shows_cycles(source.analysis) || !has_fitted_curve(source.analysis)) {
+    return figure.without_chart("Without fitted cycles there are no residuals.");
+  }
+  const std::vector<PhaseBin> bins = residuals_over_cycle(source);
+  chart::Line mean{"mean residual", Colour::Blue, Stroke::Solid, {}};
+  chart::Area band{"two standard errors", Colour::Blue, chart::Fill::Plain, {}, kEdge_px};
+  std::vector<Point> lower;
+  Span span;
+  for (std::size_t i = 0; i < bins.size(); ++i) {
+    const PhaseBin& bin = bins[i];
+    if (bin.cycles < kFewestInBin) continue;
+    const double phase = (static_cast<double>(i) + 0.5) / static_cast<double>(kPhaseBins) - 1.0;
+    const double error = 2.0 * bin.standard_error();
+    mean.points.push_back({phase, bin.mean()});
+    band.outline.push_back({phase, bin.mean() + error});
+    lower.push_back({phase, bin.mean() - error});
+    span.add(bin.mean() + error);
+    span.add(bin.mean() - error);
+  }
+  if (mean.points.size() < 3) return figure.without_chart("There are too few fitted cycles.");
+  band.outline.insert(band.outline.end(), lower.rbegin(), lower.rend());
+  span.add(0.0);
+  Panel panel;
+  panel.height_px = 220.0;
+  panel.x = {"stick from -1 to 0, slip from 0 to 1", -1.0, 1.0};
+  panel.y = span.linear_axis(label_with_unit("residual", source.force_unit.unit));
+  panel.areas = {std::move(band)};
+  panel.lines = {{"", Colour::Grey, Stroke::Dashed, {{-1.0, 0.0}, {1.0, 0.0}}, 1.2}, std::move(mean)};
+  figure.label = fmt::format("mean residual over stick and slip of {} fitted cycles", source.analysis.cycles.used);
+  figure.chart = chart::Chart{"Residual over the cycle", {}, {std::move(panel)}};
   return figure;
 }
 

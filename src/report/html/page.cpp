@@ -176,8 +176,9 @@ bool has_fitted_curve(const Analysis& analysis) {
 }
 
 std::vector<Figure> figures_of(const Source& source) {
-  return {trace_figure(source), spectrum_figure(source), cycles_figure(source), evolution_figure(source),
-          pairs_figure(source), map_figure(source),      speed_figure(source),  pattern_figure(source)};
+  return {trace_figure(source),     spectrum_figure(source),  cycles_figure(source),
+          residuals_figure(source), evolution_figure(source), pairs_figure(source),
+          map_figure(source),       speed_figure(source),     pattern_figure(source)};
 }
 
 namespace {
