@@ -60,6 +60,7 @@ const kGermanWarnings = {
   scatter_of_one_side: "Auf einer Seite steht nur eine Aufzeichnung.",
   speeds_differ: "Die Antriebsgeschwindigkeiten unterscheiden sich um mehr als 1 %.",
   loads_differ: "Die Normalkräfte unterscheiden sich um mehr als 1 %.",
+  zeros_differ: "Der Nullpunkt des Sensors ist nur für einen Teil der Aufzeichnungen angegeben.",
   motions_differ: "Nicht alle zeigen dieselbe Art von Bewegung.",
   recording_repeated: "Dieselbe Aufzeichnung steht zweimal da: das ist keine Wiederholung.",
 };

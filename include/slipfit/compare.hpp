@@ -37,6 +37,7 @@ struct ComparedFit {
   std::string group;   ///< of the manifest
   std::string motion;  ///< "stick_slip", ...
   std::optional<double> speed_m_per_s, normal_force_N;
+  std::optional<double> zero_force_N;  ///< the reading without force, where it is stated
   std::vector<ComparedValue> values;  ///< in the order of compared_quantities()
 };
 

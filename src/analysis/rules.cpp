@@ -185,6 +185,7 @@ constexpr auto kRules = std::to_array<Rule>({
     {"scatter_of_one_side", RuleKind::Warning},
     {"speeds_differ", RuleKind::Warning},
     {"loads_differ", RuleKind::Warning},
+    {"zeros_differ", RuleKind::Warning},
     {"motions_differ", RuleKind::Warning},
     {"origin_not_known", RuleKind::Warning},
     {"rsm_differs", RuleKind::Warning},

@@ -128,6 +128,14 @@ void warn_of_conditions(Comparison& comparison) {
                                      stated(comparison.a, &ComparedFit::normal_force_N, "N"),
                                      stated(comparison.b, &ComparedFit::normal_force_N, "N"))});
   }
+  const auto states_zero = [](const ComparedFit& fit) { return fit.zero_force_N.has_value(); };
+  const bool any_states = std::ranges::any_of(a, states_zero) || std::ranges::any_of(b, states_zero);
+  if (any_states && !(std::ranges::all_of(a, states_zero) && std::ranges::all_of(b, states_zero))) {
+    comparison.warnings.push_back(
+        {"zeros_differ",
+         "the sensor's reading without force is stated for some recordings only: forces and coefficients of friction "
+         "may differ for this reason alone; state --zero for all of them"});
+  }
   const auto differs_from_first = [&a](const ComparedFit& fit) { return fit.motion != a.front().motion; };
   if (std::ranges::any_of(a, differs_from_first) || std::ranges::any_of(b, differs_from_first)) {
     comparison.warnings.push_back(
@@ -241,6 +249,7 @@ ComparedFit fit_from(const JsonNode& document) {
     fit.group = recording->text_at("group");
     fit.speed_m_per_s = recording->number_at("speed_m_per_s");
     fit.normal_force_N = recording->number_at("normal_force_N");
+    fit.zero_force_N = recording->number_at("zero_force_N");
   }
   for (const ComparedQuantity& quantity : compared_quantities()) fit.values.push_back(value_in(document, quantity));
   return fit;

@@ -114,6 +114,19 @@ TEST_CASE("other speeds, loads and kinds of motion are said") {
   for (const char* const code : {"speeds_differ", "loads_differ", "motions_differ"}) CHECK(warns(comparison, code));
 }
 
+TEST_CASE("a zero that some recordings lack is said") {
+  json zeroed = document(1000.0);
+  zeroed["recording"]["zero_force_N"] = 0.1;
+  json unknown = document(1000.0);
+  unknown["recording"]["zero_force_N"] = nullptr;
+  const auto warns_of = [](const json& one, const json& other) {
+    return warns(compare({"a", {fit_of(one)}}, {"b", {fit_of(other)}}), "zeros_differ");
+  };
+  CHECK(warns_of(zeroed, unknown));
+  CHECK_FALSE(warns_of(zeroed, zeroed));
+  CHECK_FALSE(warns_of(unknown, unknown));
+}
+
 TEST_CASE("a recording that counts twice is said") {
   json first = document(1000.0);
   first["recording"]["input_digest"] = "xxh128:1";
