@@ -38,7 +38,7 @@ struct ComparedFit {
   std::string motion;  ///< "stick_slip", ...
   std::optional<double> speed_m_per_s, normal_force_N;
   std::optional<double> zero_force_N;  ///< the reading without force, where it is stated
-  std::vector<ComparedValue> values;  ///< in the order of compared_quantities()
+  std::vector<ComparedValue> values;   ///< in the order of compared_quantities()
 };
 
 /// Reads a document of the schema slipfit.fit/1, as `to_json` and `slipfit fit --json` write it. Messages call it
