@@ -372,8 +372,9 @@ class Fit:
         Parameters
         ----------
         kind : str
-            ``"trace"``: force, fit and residual; ``"spectrum"``; ``"cycles"``: all cycles over each other;
-            ``"stacked"``: one above the other; ``"speed"``: spacing over speed; ``"map"``: of the regimes.
+            A chart of the page: ``"trace"``: force, fit and residual; ``"spectrum"``; ``"cycles"``: all cycles over each
+            other; ``"residuals"``: over the cycle; ``"evolution"``: over the slips; ``"pairs"``: peaks and troughs;
+            ``"map"``: of the regimes; ``"speed"``: spacing and frequency over speed; ``"pattern"``.
         ax : matplotlib axes, optional
             To draw into; else new ones.
         """

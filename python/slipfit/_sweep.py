@@ -140,8 +140,8 @@ class Sweep(Fit):
         Parameters
         ----------
         kind : str
-            ``"speed"``: spacing over speed, measured and predicted; ``"stacked"`` or ``"trace"``: the traces one above
-            the other; ``"cycles"``: the cycles of all recordings; ``"map"``: of the regimes; ``"spectrum"``.
+            ``"speed"``: spacing over speed, measured and predicted; ``"friction"``: over speed; ``"trace"``: the traces
+            one above the other; ``"cycles"``: the cycles of all recordings; ``"spectrum"``; ``"map"``: of the regimes.
         ax : matplotlib axes, optional
         """
         from . import _plot

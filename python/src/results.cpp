@@ -86,25 +86,17 @@ py::array_t<double> fitted_of(const AnalysedRecording& result) {
   return array_of(fitted);
 }
 
-/// frequency_Hz, power; damping ratio and lambda of the limit of stick-slip.
-py::dict background_of(const AnalysedRecording& result) {
-  const Background background = without_gil([&] { return gather_background(*result.recording, *result.analysis); });
-  std::vector<double> frequency_Hz(background.spectrum.power.size());
-  for (std::size_t i = 0; i < frequency_Hz.size(); ++i)
-    frequency_Hz[i] = static_cast<double>(i) * background.spectrum.bin_Hz;
-  std::vector<double> zeta;
-  std::vector<double> lambda;
-  for (const LimitPoint& point : background.limit) {
-    zeta.push_back(point.damping_ratio);
-    lambda.push_back(point.lambda);
-  }
-  py::dict all;
-  all["frequency_Hz"] = array_of(frequency_Hz);
-  all["power"] = array_of(background.spectrum.power);
-  all["damping_ratio"] = array_of(zeta);
-  all["lambda"] = array_of(lambda);
-  all["prediction"] = background.prediction ? py::object(py::str(to_json(*background.prediction, {}))) : py::none();
-  return all;
+std::string charts_of(const AnalysedRecording& result) {
+  return without_gil([&] {
+    return report_charts(*result.recording, *result.analysis, gather_background(*result.recording, *result.analysis));
+  });
+}
+
+std::string charts_of(const AnalysedSweep& result) {
+  return without_gil([&] {
+    const auto& [entries, sweep] = *result.parts;
+    return report_charts(entries, sweep, predict_around(entries, sweep));
+  });
 }
 
 std::string page_of(const AnalysedRecording& result, const std::string& command) {
@@ -130,11 +122,6 @@ std::vector<AnalysedRecording> members_of(const AnalysedSweep& result) {
   return members;
 }
 
-std::optional<std::string> swept_prediction_of(const AnalysedSweep& result) {
-  const auto prediction = without_gil([&] { return predict_around(result.parts->entries, result.parts->sweep); });
-  return prediction ? std::optional(to_json(*prediction, {})) : std::nullopt;
-}
-
 }  // namespace
 
 void add_results(py::module_& module) {
@@ -149,7 +136,7 @@ void add_results(py::module_& module) {
       .def("text", [](const AnalysedRecording& r) { return to_text(*r.recording, *r.analysis); })
       .def("cycles_csv", [](const AnalysedRecording& r) { return cycles_to_csv(*r.recording, *r.analysis); })
       .def("fitted", fitted_of)
-      .def("background", background_of)
+      .def("charts", py::overload_cast<const AnalysedRecording&>(charts_of))
       .def("page", py::overload_cast<const AnalysedRecording&, const std::string&>(page_of), py::arg("command"));
   py::class_<AnalysedSweep>(module, "Sweep", "Several recordings, each analysed, and what holds for all.")
       .def(
@@ -163,7 +150,7 @@ void add_results(py::module_& module) {
           [](const AnalysedSweep& r, const std::string& id) { return to_text(r.parts->entries, r.parts->sweep, id); },
           py::arg("id"))
       .def_property_readonly("members", members_of)
-      .def("prediction", swept_prediction_of)
+      .def("charts", py::overload_cast<const AnalysedSweep&>(charts_of))
       .def("page", py::overload_cast<const AnalysedSweep&, const std::string&, const std::string&>(page_of),
            py::arg("id"), py::arg("command"));
   module.def("analyze", analyse, py::arg("recording"));

@@ -242,7 +242,7 @@ def test_names_from_outside_stay_text(demo):
     assert "<script" not in shown
 
 
-@pytest.mark.parametrize("kind", ["trace", "spectrum", "cycles", "stacked", "speed", "map"])
+@pytest.mark.parametrize("kind", ["trace", "spectrum", "cycles", "speed", "map"])
 def test_plots(kind, demo_fit, sweep):
     import matplotlib
 
@@ -255,7 +255,22 @@ def test_plots(kind, demo_fit, sweep):
     pyplot.close("all")
 
 
-@pytest.mark.parametrize("kind, code", [("speed", "cannot_predict"), ("cycles", "no_cycles"), ("stacked", "no_cycles")])
+def test_every_chart_of_the_page_is_drawn_from_its_data(demo_fit, tmp_path):
+    import matplotlib
+
+    matplotlib.use("Agg")
+    from matplotlib import pyplot
+
+    axes = {kind: demo_fit.plot(kind) for kind in ("trace", "spectrum", "cycles", "residuals", "evolution", "pairs", "map", "speed", "pattern")}
+    trace = axes["trace"]
+    assert np.array_equal(trace.lines[0].get_xdata(), demo_fit.recording.time)
+    assert np.array_equal(trace.lines[0].get_ydata(), demo_fit.recording.force)
+    low, high = axes["map"].get_xlim()
+    assert low < demo_fit.damping_ratio.value < high and axes["map"].get_xscale() == "log"
+    pyplot.close("all")
+
+
+@pytest.mark.parametrize("kind, code", [("speed", "cannot_predict"), ("cycles", "no_cycles"), ("residuals", "no_cycles")])
 def test_plots_of_what_is_not_there(kind, code):
     error = error_of(lambda: sf.fit(steady()).plot(kind))
     assert error.code == code and error.remedy.startswith("use plot('trace')")
@@ -458,8 +473,8 @@ def test_the_residual_has_a_panel_of_its_own(demo_fit):
 
     matplotlib.use("Agg")
     axes = demo_fit.plot("trace")
-    (panel,) = axes.child_axes
-    assert [line.get_label() for line in axes.lines] == ["measured", "fit"] and panel.get_ylabel() == "residual (N)"
+    panel = axes.figure.axes[-1]
+    assert [line.get_label() for line in axes.lines] == ["measured", "fit"] and panel.get_ylabel() == "residual [N]"
     low, high = panel.get_ylim()
     assert high - low < 0.2 < np.ptp(demo_fit.recording.force)
 

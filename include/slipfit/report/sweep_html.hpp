@@ -21,4 +21,8 @@ struct SweepOrigin {
 std::string to_html(std::span<const SweepEntry> entries, const SweepAnalysis& sweep,
                     const std::optional<Prediction>& prediction, const SweepOrigin& origin);
 
+/// Returns the charts of the page of a sweep as `report_charts` of a recording does ("sweep-spacing", ...).
+std::string report_charts(std::span<const SweepEntry> entries, const SweepAnalysis& sweep,
+                          const std::optional<Prediction>& prediction);
+
 }  // namespace slipfit

@@ -24,6 +24,7 @@ struct Source {
   DisplayUnit force_unit;              ///< that suits the largest force; no unit for friction coefficients
   std::vector<double> fitted;          ///< the fit at every sample, not a number where it does not reach
   std::vector<double> force_of_slips;  ///< force_without_interference()
+  std::size_t trace_columns = 400;     ///< of the trace: on a page one for 1.5 pixels
 };
 Source source_of(const Recording& recording, const Analysis& analysis, const Background& background);
 

@@ -15,13 +15,13 @@ namespace {
 
 using chart::Colour, chart::Panel, chart::Point, chart::Shape, chart::Stroke;
 
-constexpr std::size_t kTraceColumns = 400;  // of the picture: one for 1.5 pixels
-constexpr std::size_t kCyclesClose = 5;     // seen close up
-constexpr std::size_t kFewSamples = 150;    // of the close-up: so few are drawn one by one
+constexpr std::size_t kCyclesClose = 5;   // seen close up
+constexpr std::size_t kFewSamples = 150;  // of the close-up: so few are drawn one by one
 
 /// A piece of the recording in the units of the chart.
 struct Piece {
   std::vector<double> time_s, force, fitted, residual;
+  std::size_t columns = 0;  ///< that are drawn, each with its extremes
 };
 
 Piece cut(const Source& source, SampleRange range) {
@@ -29,6 +29,7 @@ Piece cut(const Source& source, SampleRange range) {
   const std::vector<double>& fitted = source.fitted;
   const double scale = source.force_unit.per_SI;
   Piece piece;
+  piece.columns = source.trace_columns;
   for (std::size_t i = range.begin; i < range.end; ++i) {
     piece.time_s.push_back(recording.time_s()[i]);
     piece.force.push_back(scale * recording.force()[i]);
@@ -52,8 +53,8 @@ Panel force_panel(const Piece& piece, const std::string& label, double width_px)
   Panel panel;
   panel.height_px = 220.0;
   panel.lines = {
-      {"measured", Colour::Grey, Stroke::Solid, envelope(piece.time_s, piece.force, kTraceColumns), width_px},
-      {"fit", Colour::Vermillion, Stroke::Solid, envelope(piece.time_s, piece.fitted, kTraceColumns), width_px + 0.4}};
+      {"measured", Colour::Grey, Stroke::Solid, envelope(piece.time_s, piece.force, piece.columns), width_px},
+      {"fit", Colour::Vermillion, Stroke::Solid, envelope(piece.time_s, piece.fitted, piece.columns), width_px + 0.4}};
   panel.x = time_axis(piece, "time [s]");
   panel.y = axis_of(panel.lines.front().points, label);
   return panel;
@@ -108,7 +109,7 @@ Panel close_up(const Piece& piece, const Source& source, const std::string& labe
 Panel residual_panel(const Piece& piece, const std::string& unit) {
   Panel panel;
   panel.height_px = 90.0;
-  panel.lines = {{"", Colour::Blue, Stroke::Solid, envelope(piece.time_s, piece.residual, kTraceColumns), 1.2}};
+  panel.lines = {{"", Colour::Blue, Stroke::Solid, envelope(piece.time_s, piece.residual, piece.columns), 1.2}};
   panel.x = time_axis(piece, "time [s]");
   panel.y = axis_of(panel.lines.front().points, label_with_unit("residual", unit));
   return panel;
