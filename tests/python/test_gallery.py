@@ -11,14 +11,20 @@ from conftest import PROJECT
 NOTEBOOKS = sorted((PROJECT / "docs" / "gallery").glob("*.ipynb"))
 
 
-@pytest.mark.parametrize("notebook", NOTEBOOKS, ids=lambda notebook: notebook.stem)
-def test_notebooks(notebook, tmp_path):
+@pytest.fixture(scope="module")
+def executed(tmp_path_factory):
+    """The folder with all notebooks as one run left them."""
     pytest.importorskip("nbconvert")
-    target = PROJECT / "docs" / "gallery"  # paths in it are relative to where it stands
-    run = subprocess.run([sys.executable, "-m", "nbconvert", "--to", "notebook", "--execute", "--output-dir", str(tmp_path), str(target / notebook.name)],
+    folder = tmp_path_factory.mktemp("gallery")
+    run = subprocess.run([sys.executable, "-m", "nbconvert", "--to", "notebook", "--execute", "--output-dir", str(folder), *map(str, NOTEBOOKS)],
                          capture_output=True, text=True, env={**os.environ, "JUPYTER_PLATFORM_DIRS": "1", "PYTHONWARNINGS": "ignore"}, check=False)
     assert run.returncode == 0, run.stderr[-3000:]
-    cells = [cell for cell in json.loads((tmp_path / notebook.name).read_text())["cells"] if cell["cell_type"] == "code"]
+    return folder
+
+
+@pytest.mark.parametrize("notebook", NOTEBOOKS, ids=lambda notebook: notebook.stem)
+def test_notebooks(notebook, executed):
+    cells = [cell for cell in json.loads((executed / notebook.name).read_text())["cells"] if cell["cell_type"] == "code"]
     assert all(cell["execution_count"] for cell in cells)
     assert any(cell["outputs"] for cell in cells)
 
