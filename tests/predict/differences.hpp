@@ -46,6 +46,7 @@ double standard_error_by_differences(const slipfit::PredictionModel& model, doub
   if (e.stiffness_trend) sizes[10] = 0.1;
   std::array<double, slipfit::kModelValues> gradient{};
   for (std::size_t i = 0; i < gradient.size(); ++i) {
+    if (!(e.covariance[i][i] > 0.0)) continue;  // known exactly: nothing follows from its error
     const auto slope = [&](double step) {
       return (quantity(moved(model, i, step)) - quantity(moved(model, i, -step))) / (2.0 * step);
     };
