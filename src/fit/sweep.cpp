@@ -298,9 +298,9 @@ class Assembler {
 std::optional<SweepFit> fit_prepared(std::span<const SweepRecording> recordings, SweepData data,
                                      const HeldParameters& stated, const FitOptions& options) {
   if (options.notify_step) options.notify_step(fmt::format("fitting {} recordings together", data.fitted.size()));
-  std::optional<fit::SweepFits> fits = fit::solve_sweep(data, options);
+  const std::optional<fit::SweepFits> fits = fit::solve_sweep(data, options);
   if (!fits) return std::nullopt;
-  fit::ChosenLaw law = fit::choose_law(data, *std::move(fits), options.tier, fit::speed_ratio(recordings));
+  fit::ChosenLaw law = fit::choose_law(data, *fits, options.tier, fit::speed_ratio(recordings));
   const std::optional<Warning> ring_caveat = fit::join_ring_downs(recordings, stated, data, law.outcome);
   SweepFit sweep = Assembler(recordings, data, law.outcome).assemble(law.choice);
   if (ring_caveat) sweep.result.warnings.push_back(*ring_caveat);

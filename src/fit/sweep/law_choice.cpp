@@ -82,7 +82,7 @@ SweepOutcome coulomb_outcome(const SweepData& data, const SweepFits& fits) {
 
 }  // namespace
 
-ChosenLaw choose_law(const SweepData& data, SweepFits fits, std::optional<Tier> tier, double speeds) {
+ChosenLaw choose_law(const SweepData& data, const SweepFits& fits, std::optional<Tier> tier, double speeds) {
   LawChoice choice = tier ? LawChoice{*tier == Tier::Velocity, "asked for by --tier"} : choose_by_chance(fits, speeds);
   std::optional<SweepOutcome> coulomb;
   if (choice.velocity && !tier && fits.coulomb && is_misfit(fits.velocity)) {
