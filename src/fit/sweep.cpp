@@ -320,6 +320,7 @@ std::optional<SweepFit> fit_sweep(std::span<const SweepRecording> recordings, co
   if (!fit::is_damping_open(sweep->result, recordings)) return sweep;
   FitOptions undamped = options;
   undamped.held.damping_ratio = 0.0;
+  // Whether the springs relax is settled; otherwise each recording is fitted without damping, too.
   if (!fit::relaxes(data)) data = fit::prepare_sweep(recordings, undamped, fit::found_average(sweep->result));
   std::optional<SweepFit> simpler = fit_prepared(recordings, std::move(data), options.held, undamped);
   if (!simpler) return sweep;
