@@ -7,6 +7,7 @@ format     clang-format 14, where it is installed
 lengths    functions up to 80 lines, files up to 800
 parameters in public headers: no output and no boolean parameters
 names      of test cases: no semicolon, at which CMake 3.25 cuts a name into two tests that run nothing and pass
+ranges     algorithms of std::ranges that the browser version lacks
 
 Breaches older than their rule are in scripts/lint_allowed.txt as a count by rule and file, which may only decrease: --lower writes the
 remaining counts. The last line reports the counts of scripts/language.py and is not checked.
@@ -192,6 +193,18 @@ def name_breaches(project):
                 yield Breach("names", file, code.count("\n", 0, match.start()) + 1, "a semicolon in the name of a test case")
 
 
+def range_breaches(project):
+    """The C++ library of the browser version has no algorithms of std::ranges but those that cmake/web adds."""
+    added = (project / "cmake/web/missing_ranges.hpp").read_text(encoding="utf-8")
+    known = set(re.findall(r"^constexpr \w+ (\w+)\(", added, re.M))
+    for root in (project / name for name in ROOTS):
+        for file in sorted(root.rglob("*.[ch]pp")):
+            for number, line in enumerate(file.read_text(encoding="utf-8").splitlines(), 1):
+                for name in re.findall(r"std::ranges::(\w+)\(", line):
+                    if name not in known:
+                        yield Breach("ranges", file, number, f"std::ranges::{name} is not in cmake/web/missing_ranges.hpp")
+
+
 def allowed_counts(file):
     """Lines "rule file count"."""
     lines = file.read_text(encoding="utf-8").splitlines() if file.exists() else []
@@ -207,7 +220,7 @@ def write_counts(file, counts):
 def main():
     project = pathlib.Path(__file__).resolve().parents[1]
     list_file = project / "scripts" / "lint_allowed.txt"
-    rules = (layer_breaches, circle_breaches, format_breaches, length_breaches, parameter_breaches, name_breaches)
+    rules = (layer_breaches, circle_breaches, format_breaches, length_breaches, parameter_breaches, name_breaches, range_breaches)
     found = collections.defaultdict(list)
     for breach in (breach for rule in rules for breach in rule(project)):
         found[(breach.rule, str(breach.file.relative_to(project)))].append(breach)

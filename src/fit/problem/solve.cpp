@@ -423,9 +423,10 @@ double solve_together(std::span<BlockFit> recordings, const SweepTerms& sweep, c
     if (is_settled && pressed == at_ends) break;
     at_ends = std::move(pressed);
     std::vector<Index> fixed;
-    std::ranges::merge(held, at_ends, std::back_inserter(fixed));
+    std::merge(held.begin(), held.end(), at_ends.begin(), at_ends.end(), std::back_inserter(fixed));
     std::vector<Bound> free = bounds;
-    std::erase_if(free, [&](const Bound& bound) { return std::ranges::binary_search(at_ends, bound.column); });
+    std::erase_if(free,
+                  [&](const Bound& bound) { return std::binary_search(at_ends.begin(), at_ends.end(), bound.column); });
     ceres::Problem ceres;
     auto* cost = new BundleCost(bundle, *std::move(start), first_radius(options),
                                 tolerance_of(options, bundle.residuals()), free);
