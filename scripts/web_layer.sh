@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# web_layer.sh [LAYER...]: checks layers of src (core, io, signal, analysis, surface by default) against the C++ library of the browser version, libc++ 13,
+# web_layer.sh [LAYER...]: checks layers of src (by default all that compute or read) against the C++ library of the browser version, libc++ 13,
 # which lacks much that g++ 12 has: by emscripten's compiler where it is installed, else by clang or g++ with the headers of
 # Debian's libc++-13-dev. That package is unpacked into build/web-layer, not installed, because it conflicts with what libceres-dev
-# needs. Nothing is built, and no library of scripts/web_libraries.sh is needed: half a minute. Skips, saying so, where neither is.
+# needs. Nothing is built, and no library of scripts/web_libraries.sh is needed: a minute. Skips, saying so, where neither is.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -12,7 +12,7 @@ skip() {
 }
 
 layers=("$@")
-[ ${#layers[@]} -gt 0 ] || layers=(core io signal analysis surface)
+[ ${#layers[@]} -gt 0 ] || layers=(core io signal model fit predict analysis surface)
 headers_of_libcxx() {  # unpacked once, from what apt-get verifies; prints their folder
   local folder="$PWD/build/web-layer" headers="usr/lib/llvm-13/include/c++/v1"
   if [ ! -f "$folder/$headers/version" ]; then
@@ -42,6 +42,9 @@ done
 mkdir "$work/include/glog"  # which knows no such platform; headers of ceres include it
 {
   echo '#pragma once'
+  echo '#include <string>'
+  echo 'namespace google { enum { GLOG_FATAL }; }'
+  echo 'inline int FLAGS_minloglevel, FLAGS_v; inline std::string FLAGS_vmodule;'
   echo 'struct NoLog { template <class T> const NoLog& operator<<(const T&) const { return *this; } };'
   printf '#define %s(...) NoLog()\n' {,D}CHECK{,_EQ,_NE,_GE,_GT,_LE,_LT} {,V}LOG
 } >"$work/include/glog/logging.h"

@@ -1,6 +1,6 @@
 // The range algorithms that slipfit uses, for emscripten's libc++ 13, which has none. CMake includes this file before
 // every source of the browser version (CMakePresets.json, preset web); other builds never see it. A missing algorithm
-// is an error of that build: scripts/web_layer.sh compiles one layer with every test run.
+// is an error of that build: scripts/lint.py knows it, and scripts/web_layer.sh compiles most layers in CI.
 #pragma once
 
 #include <algorithm>
