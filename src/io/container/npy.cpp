@@ -2,15 +2,15 @@
 
 #include <algorithm>
 #include <array>
-#include <boost/endian/conversion.hpp>
+#include <bit>
 #include <cstdint>
-#include <cstring>
 #include <regex>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "io/container/cursor.hpp"
 #include "io/container/table_text.hpp"
 #include "slipfit/core/printable.hpp"
 
@@ -20,40 +20,32 @@
 namespace slipfit::reading {
 namespace {
 
-using Load = double(const char*);
-
-template <class T, boost::endian::order Order>
-double load(const char* bytes) {
-  std::array<unsigned char, sizeof(T)> copy{};
-  std::memcpy(copy.data(), bytes, copy.size());
-  return static_cast<double>(boost::endian::endian_load<T, sizeof(T), Order>(copy.data()));
-}
-
 /// Holds a kind of number by its name without the order of its bytes.
 struct ArrayType {
   std::string_view name;
   std::size_t size = 0;
-  Load* little = nullptr;
-  Load* big = nullptr;
+  double (*read)(Cursor&) = nullptr;
 };
 
-template <class T>
-constexpr ArrayType array_type(std::string_view name) {
-  return {name, sizeof(T), load<T, boost::endian::order::little>, load<T, boost::endian::order::big>};
-}
-
-constexpr std::array kArrayTypes{
-    array_type<float>("f4"),         array_type<double>("f8"),        array_type<std::int8_t>("i1"),
-    array_type<std::int16_t>("i2"),  array_type<std::int32_t>("i4"),  array_type<std::int64_t>("i8"),
-    array_type<std::uint8_t>("u1"),  array_type<std::uint16_t>("u2"), array_type<std::uint32_t>("u4"),
-    array_type<std::uint64_t>("u8"),
-};
+constexpr auto kArrayTypes = std::to_array<ArrayType>({
+    {"f4", 4, read_number<float>},
+    {"f8", 8, read_number<double>},
+    {"i1", 1, read_number<std::int8_t>},
+    {"i2", 2, read_number<std::int16_t>},
+    {"i4", 4, read_number<std::int32_t>},
+    {"i8", 8, read_number<std::int64_t>},
+    {"u1", 1, read_number<std::uint8_t>},
+    {"u2", 2, read_number<std::uint16_t>},
+    {"u4", 4, read_number<std::uint32_t>},
+    {"u8", 8, read_number<std::uint64_t>},
+});
 
 /// Describes a number of a row: its column, its place in the row and how it is read.
 struct Field {
   std::string name;  ///< empty: none is stated
   std::size_t offset = 0;
-  Load* value_at = nullptr;
+  std::endian order = std::endian::little;
+  const ArrayType* type = nullptr;
 };
 
 /// Holds what the first line of an array states.
@@ -62,7 +54,7 @@ struct Header {
   std::size_t row_bytes = 0;
   std::size_t rows = 0;
   std::size_t row_step = 0;  ///< bytes from a row to the next of the same column
-  std::size_t begin = 0;     ///< of the numbers in the file
+  std::string_view numbers;  ///< all bytes behind the line
 };
 
 /// Returns the type of "<f8", or nothing where it is no real number.
@@ -79,36 +71,27 @@ ThrownError no_table(const std::string& name, const std::string& what) {
                    what)});
 }
 
-ThrownError cut_off(const std::string& name) {
-  return damaged(name, "the NumPy file is cut off or damaged");
-}
-
-/// Returns the line of Python; the numbers begin at `begin`.
-std::string line_of_header(std::string_view file, const std::string& name, std::size_t& begin) {
+/// Returns the line of Python at the beginning of the file. Throws Damaged.
+std::string_view line_of_header(Cursor& file) {
   constexpr std::size_t kMagic = 6;
-  constexpr std::size_t kVersion = 2;
   constexpr std::size_t kLongest = 10000;  // of a line that NumPy reads
-  const auto byte = [&](std::size_t i) { return static_cast<std::size_t>(static_cast<unsigned char>(file[i])); };
-  const std::size_t first = kMagic + kVersion;
-  const bool is_first_version = file.size() > kMagic && file[kMagic] == 1;
-  const std::size_t width = is_first_version ? 2 : 4;
-  if (file.size() < first + width) throw cut_off(name);
-  std::size_t length = 0;
-  for (std::size_t i = 0; i < width; ++i) length += byte(first + i) << (8 * i);
-  begin = first + width + length;
-  if (length > kLongest || begin > file.size()) throw cut_off(name);
-  return std::string(file.substr(first + width, length));
+  file.bytes(kMagic);
+  const bool is_first_version = file.number<std::uint8_t>() == 1;
+  file.number<std::uint8_t>();  // minor version
+  const std::size_t length = is_first_version ? file.number<std::uint16_t>() : file.number<std::uint32_t>();
+  if (length > kLongest) throw Damaged{};
+  return file.bytes(length);
 }
 
-/// Returns the text of an entry of the dictionary that the line of Python is. Error: damaged_container.
-std::string entry_of(const std::string& line, const std::string& pattern, const std::string& name) {
+/// Returns the text of an entry of the dictionary that the line of Python is. Throws Damaged.
+std::string entry_of(const std::string& line, const std::string& pattern) {
   std::smatch match;
-  if (!std::regex_search(line, match, std::regex(pattern))) throw cut_off(name);
+  if (!std::regex_search(line, match, std::regex(pattern))) throw Damaged{};
   return match[1];
 }
 
-std::vector<std::size_t> shape_of(const std::string& line, const std::string& name) {
-  const std::string extents = entry_of(line, R"('shape':\s*\(([0-9, ]*)\))", name);
+std::vector<std::size_t> shape_of(const std::string& line) {
+  const std::string extents = entry_of(line, R"('shape':\s*\(([0-9, ]*)\))");
   const std::regex number("[0-9]{1,18}");
   std::vector<std::size_t> shape;
   for (std::sregex_iterator one(extents.begin(), extents.end(), number), end; one != end; ++one) {
@@ -117,11 +100,14 @@ std::vector<std::size_t> shape_of(const std::string& line, const std::string& na
   return shape;
 }
 
+/// Throws Damaged. Error: damaged_container, for what is no table of numbers.
 Header header_of(std::string_view file, const std::string& name) {
   Header header;
-  const std::string line = line_of_header(file, name, header.begin);
-  const std::vector<std::size_t> shape = shape_of(line, name);
-  const std::string types = entry_of(line, R"('descr':\s*('[^']*'|\[[^\]]*\]))", name);
+  Cursor cursor(file, std::endian::little);
+  const std::string line(line_of_header(cursor));
+  header.numbers = cursor.rest();
+  const std::vector<std::size_t> shape = shape_of(line);
+  const std::string types = entry_of(line, R"('descr':\s*('[^']*'|\[[^\]]*\]))");
   const bool has_names = types.front() == '[';
   if (shape.empty() || shape.size() > (has_names ? 1U : 2U)) {
     throw no_table(name, fmt::format("an array of {} dimensions", shape.size()));
@@ -133,12 +119,13 @@ Header header_of(std::string_view file, const std::string& name) {
     const std::string type_name = (*one)[2];
     const ArrayType* const type = type_of(type_name);
     if (type == nullptr) throw no_table(name, fmt::format("values of the type '{}'", printable(type_name)));
+    const std::endian order = type_name.front() == '>' ? std::endian::big : std::endian::little;
     for (std::size_t i = 0; i < columns; ++i) {
-      header.fields.push_back({(*one)[1], header.row_bytes, type_name.front() == '>' ? type->big : type->little});
+      header.fields.push_back({(*one)[1], header.row_bytes, order, type});
       header.row_bytes += type->size;
     }
   }
-  if (header.fields.empty() || header.rows > (file.size() - header.begin) / header.row_bytes) throw cut_off(name);
+  if (header.fields.empty() || header.rows > header.numbers.size() / header.row_bytes) throw Damaged{};
   header.row_step = header.row_bytes;
   if (!has_names && line.find("'fortran_order': True") != std::string::npos) {
     header.row_step = header.row_bytes / columns;
@@ -147,23 +134,31 @@ Header header_of(std::string_view file, const std::string& name) {
   return header;
 }
 
-}  // namespace
-
-TextStream open_npy(TextStream packed, const std::string& name, const ContainerChoice& /*choice*/) {
-  const std::string file = read_all(packed, name);
+NumberTable table_of(std::string_view file, const std::string& name) {
   const Header header = header_of(file, name);
   NumberTable table;
   for (const Field& field : header.fields) {
     if (!field.name.empty()) table.names.push_back(field.name);
     std::vector<double>& column = table.columns.emplace_back();
     column.reserve(header.rows);
-    const char* next = file.data() + header.begin + field.offset;
-    for (std::size_t row = 0; row < header.rows; ++row, next += header.row_step) {
-      column.push_back(field.value_at(next));
+    for (std::size_t row = 0; row < header.rows; ++row) {
+      Cursor cursor(header.numbers.substr(field.offset + row * header.row_step), field.order);
+      column.push_back(field.type->read(cursor));
     }
   }
+  return table;
+}
+
+}  // namespace
+
+TextStream open_npy(TextStream packed, const std::string& name, const ContainerChoice& /*choice*/) {
+  const std::string file = read_all(packed, name);
   TextStream text;
-  text.bytes = slipfit::reading::text_of(std::move(table));
+  try {
+    text.bytes = text_of(table_of(file, name));
+  } catch (const Damaged&) {
+    throw damaged(name, "the NumPy file is cut off or damaged");
+  }
   return text;
 }
 

@@ -14,6 +14,7 @@
 #include <map>
 #include <utility>
 
+#include "io/container/cursor.hpp"
 #include "io/container/formats.hpp"
 #include "io/container/table_text.hpp"
 #include "io/message.hpp"
@@ -35,40 +36,6 @@ constexpr std::uint32_t kString = 0x20;
 constexpr std::uint32_t kNoData = 0xFFFFFFFF;
 constexpr std::uint32_t kFormatChanging = 0x00001269;
 constexpr std::uint32_t kDigitalLine = 0x0000126A;
-
-/// Thrown for files that are truncated or state a wrong size.
-struct Damaged {};
-
-/// Reads from front to end; throws Damaged beyond it.
-class Cursor {
- public:
-  Cursor(std::string_view bytes, std::endian order) : rest_(bytes), order_(order) {}
-
-  std::string_view bytes(std::uint64_t size) {
-    if (size > rest_.size()) throw Damaged{};
-    const auto taken = rest_.substr(0, static_cast<std::size_t>(size));
-    rest_.remove_prefix(taken.size());
-    return taken;
-  }
-  template <class Number>
-  Number number() {
-    std::string raw(bytes(sizeof(Number)));
-    if (order_ != std::endian::native) std::ranges::reverse(raw);
-    Number value{};
-    std::memcpy(&value, raw.data(), sizeof(Number));
-    return value;
-  }
-  std::string text() { return std::string(bytes(number<std::uint32_t>())); }
-
- private:
-  std::string_view rest_;
-  std::endian order_;
-};
-
-template <class Number>
-double read_number(Cursor& cursor) {
-  return static_cast<double>(cursor.number<Number>());
-}
 
 double read_time_stamp(Cursor& cursor) {
   const double fraction = std::ldexp(read_number<std::uint64_t>(cursor), -64);
