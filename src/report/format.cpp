@@ -224,21 +224,18 @@ std::string Table::text() const {
   }
   std::string text;
   for (const auto& row : rows_) {
+    const bool is_wrapped = row.size() == columns_.size() && columns_.back() == Align::Left && !row.back().empty();
     std::string line;
-    for (std::size_t i = 0; i < row.size(); ++i) {
+    for (std::size_t i = 0; i + (is_wrapped ? 1 : 0) < row.size(); ++i) {
       if (widths[i] == 0) continue;
       const std::string padding(widths[i] - shown_width(row[i]), ' ');
-      const bool is_last = i + 1 == columns_.size() && columns_[i] == Align::Left;
-      if (is_last && !row[i].empty()) {
-        const std::vector<std::string> lines = wrapped(line + "  ", row[i]);
-        for (std::size_t j = 0; j + 1 < lines.size(); ++j) text += lines[j] + "\n";
-        line = lines.back();
-      } else {
-        line += "  " + (columns_[i] == Align::Left ? row[i] + padding : padding + row[i]);
-      }
+      line += "  " + (columns_[i] == Align::Left ? row[i] + padding : padding + row[i]);
     }
-    line.erase(line.find_last_not_of(' ') + 1);
-    text += line + "\n";
+    if (is_wrapped) {
+      text += wrapped_text(line + "  ", row.back());
+    } else {
+      text += line.erase(line.find_last_not_of(' ') + 1) + "\n";
+    }
   }
   return text;
 }

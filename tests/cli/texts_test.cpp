@@ -28,11 +28,7 @@ std::string unwrapped(const std::string& text) {
 }  // namespace
 
 TEST_CASE("no line of all results is longer than a line of text") {
-  const std::string text = fit_text({"--speed", "10mm/s"});
-  std::size_t longest = 0;
-  for (std::size_t begin = 0; begin < text.size(); begin = text.find('\n', begin) + 1) {
-    longest = std::max(longest, slipfit::shown_width(text.substr(begin, text.find('\n', begin) - begin)));
-  }
+  const std::size_t longest = test::widest_line(fit_text({"--speed", "10mm/s"}));
   CHECK(longest <= slipfit::kLineWidth);
   CHECK(longest > slipfit::kLineWidth / 2);
 }
