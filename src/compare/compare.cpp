@@ -128,16 +128,17 @@ void warn_of_conditions(Comparison& comparison) {
                                      stated(comparison.a, &ComparedFit::normal_force_N, "N"),
                                      stated(comparison.b, &ComparedFit::normal_force_N, "N"))});
   }
-  const auto states_zero = [](const ComparedFit& fit) { return fit.zero_force_N.has_value(); };
-  const bool any_states = std::ranges::any_of(a, states_zero) || std::ranges::any_of(b, states_zero);
-  if (any_states && !(std::ranges::all_of(a, states_zero) && std::ranges::all_of(b, states_zero))) {
+  const auto any_differs = [&a, &b](auto property) {
+    const auto differs = [&](const ComparedFit& fit) { return property(fit) != property(a.front()); };
+    return std::ranges::any_of(a, differs) || std::ranges::any_of(b, differs);
+  };
+  if (any_differs([](const ComparedFit& fit) { return fit.zero_force_N.has_value(); })) {
     comparison.warnings.push_back(
         {"zeros_differ",
          "the sensor's reading without force is stated for some recordings only: forces and coefficients of friction "
          "may differ for this reason alone; state --zero for all of them"});
   }
-  const auto differs_from_first = [&a](const ComparedFit& fit) { return fit.motion != a.front().motion; };
-  if (std::ranges::any_of(a, differs_from_first) || std::ranges::any_of(b, differs_from_first)) {
+  if (any_differs([](const ComparedFit& fit) { return fit.motion; })) {
     comparison.warnings.push_back(
         {"motions_differ",
          "the recordings show different kinds of motion: only quantities that both sides have are compared"});
