@@ -107,10 +107,7 @@ def _check(kind: str, kinds: List[str]) -> None:
 
 def trace(recording: "Recording", ax: Any) -> Any:
     line = {"name": "measured", "colour": "#6F6F6F", "stroke": "solid", "width_px": 1.2, "points": [recording.time, recording.force]}
-    if ax is None:
-        from matplotlib import pyplot
-
-        ax = pyplot.subplots(figsize=(7.5, 4.0), layout="constrained")[1]
+    (ax,) = _axes(ax, [{"height_px": 280.0}])
     _draw_lines(ax, [line])
     label = "force [N]" if recording.force_unit == "N" else "coefficient of friction"
     ax.set(xlabel="time [s]", ylabel=label, title=recording.name)
@@ -119,7 +116,7 @@ def trace(recording: "Recording", ax: Any) -> Any:
 
 def fit(result: "Fit", kind: str, ax: Any) -> Any:
     _check(kind, list(_OF_ONE))
-    chart = _chart(json.loads(result._result().charts()), kind, result, kind)
+    chart = _chart(json.loads(result._result().charts(kind)), kind, result, kind)
     return _shown(chart["panels"], f"{result.id}: {chart['title']}", ax)
 
 
@@ -149,27 +146,26 @@ def sweep(result: "Sweep", kind: str, ax: Any) -> Any:
     _check(kind, [*_OF_SEVERAL, *_OF_EACH])
     if kind in _OF_EACH:
         return _over_each_other(result, kind, ax)
-    charts = json.loads(result._swept().charts())
+    charts = json.loads(result._swept().charts(_OF_SEVERAL[kind]))
     chart = _chart(charts, _OF_SEVERAL[kind], result, kind)
-    panels = [panel for key, one in charts.items() if key.startswith(_OF_SEVERAL[kind]) for panel in one["panels"]]
+    panels = [panel for one in charts.values() for panel in one["panels"]]
     return _shown(panels, f"{result.id}: {chart['title']}", ax)
 
 
 def _over_each_other(result: "Sweep", kind: str, ax: Any) -> Any:
-    """The first recording's chart, with what the others have in place of its own: the first line, or the point."""
+    """Draw the axes and areas of one recording's chart, and for each recording its spectrum or its point on the map."""
+    is_spectrum = kind == "spectrum"
     drawn: List[Any] = []
     for place, (name, one) in enumerate(result.recordings.items()):
-        panel = json.loads(one._result().charts())[kind]["panels"]
-        if not panel:
+        panels = json.loads(one._result().charts(kind))[kind]["panels"]
+        if not panels:
             continue
-        what = {"lines": panel[0]["lines"], "markers": panel[0]["markers"]}
-        own = {"lines": what["lines"][:1], "markers": []} if kind == "spectrum" else {"lines": [], "markers": what["markers"]}
+        lines, markers = panels[0]["lines"], panels[0]["markers"]
         if not drawn:
-            common = {"lines": [] if kind == "spectrum" else what["lines"], "markers": [], "notes": []}
-            drawn = _axes(ax, panel[:1])
-            _draw(drawn[0], {**panel[0], **common})
-        _draw_lines(drawn[0], own["lines"], color=f"C{place % 10}", label=name)
-        _draw_markers(drawn[0], own["markers"], color=f"C{place % 10}", label=name)
+            drawn = _axes(ax, panels[:1])
+            _draw(drawn[0], {**panels[0], "lines": [] if is_spectrum else lines, "markers": [], "notes": []})
+        _draw_lines(drawn[0], lines[:1] if is_spectrum else [], color=f"C{place % 10}", label=name)
+        _draw_markers(drawn[0], [] if is_spectrum else markers, color=f"C{place % 10}", label=name)
     if not drawn:
         raise Error("cannot_predict", f"{result.id}: no recording has this chart; use plot('trace') to see the recordings")
     _explain(drawn[0])

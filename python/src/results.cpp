@@ -86,16 +86,17 @@ py::array_t<double> fitted_of(const AnalysedRecording& result) {
   return array_of(fitted);
 }
 
-std::string charts_of(const AnalysedRecording& result) {
+std::string charts_of(const AnalysedRecording& result, const std::string& which) {
   return without_gil([&] {
-    return report_charts(*result.recording, *result.analysis, gather_background(*result.recording, *result.analysis));
+    return report_charts(*result.recording, *result.analysis, gather_background(*result.recording, *result.analysis),
+                         which);
   });
 }
 
-std::string charts_of(const AnalysedSweep& result) {
+std::string charts_of(const AnalysedSweep& result, const std::string& which) {
   return without_gil([&] {
     const auto& [entries, sweep] = *result.parts;
-    return report_charts(entries, sweep, predict_around(entries, sweep));
+    return report_charts(entries, sweep, predict_around(entries, sweep), which);
   });
 }
 
@@ -136,7 +137,7 @@ void add_results(py::module_& module) {
       .def("text", [](const AnalysedRecording& r) { return to_text(*r.recording, *r.analysis); })
       .def("cycles_csv", [](const AnalysedRecording& r) { return cycles_to_csv(*r.recording, *r.analysis); })
       .def("fitted", fitted_of)
-      .def("charts", py::overload_cast<const AnalysedRecording&>(charts_of))
+      .def("charts", py::overload_cast<const AnalysedRecording&, const std::string&>(charts_of), py::arg("which"))
       .def("page", py::overload_cast<const AnalysedRecording&, const std::string&>(page_of), py::arg("command"));
   py::class_<AnalysedSweep>(module, "Sweep", "Several recordings, each analysed, and what holds for all.")
       .def(
@@ -150,7 +151,7 @@ void add_results(py::module_& module) {
           [](const AnalysedSweep& r, const std::string& id) { return to_text(r.parts->entries, r.parts->sweep, id); },
           py::arg("id"))
       .def_property_readonly("members", members_of)
-      .def("charts", py::overload_cast<const AnalysedSweep&>(charts_of))
+      .def("charts", py::overload_cast<const AnalysedSweep&, const std::string&>(charts_of), py::arg("which"))
       .def("page", py::overload_cast<const AnalysedSweep&, const std::string&, const std::string&>(page_of),
            py::arg("id"), py::arg("command"));
   module.def("analyze", analyse, py::arg("recording"));

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "slipfit/analysis.hpp"
@@ -31,6 +32,8 @@ std::vector<PictureFile> report_pictures(const Recording& recording, const Analy
 /// Returns the charts of the page as JSON for programs that draw them: an object with a chart for each id ("trace",
 /// "spectrum", ...): title, guide, why it is absent, and panels with axes, areas, lines, markers and notes. Points are
 /// [[x, ...], [y, ...]] in the units of the axes, null where there is a gap; all samples of the trace are there.
-std::string report_charts(const Recording& recording, const Analysis& analysis, const Background& background);
+/// `which`: only charts whose id begins so.
+std::string report_charts(const Recording& recording, const Analysis& analysis, const Background& background,
+                          std::string_view which = {});
 
 }  // namespace slipfit

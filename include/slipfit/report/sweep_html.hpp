@@ -3,6 +3,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "slipfit/predict/prediction.hpp"
 #include "slipfit/sweep.hpp"
@@ -23,6 +24,6 @@ std::string to_html(std::span<const SweepEntry> entries, const SweepAnalysis& sw
 
 /// Returns the charts of the page of a sweep as `report_charts` of a recording does ("sweep-spacing", ...).
 std::string report_charts(std::span<const SweepEntry> entries, const SweepAnalysis& sweep,
-                          const std::optional<Prediction>& prediction);
+                          const std::optional<Prediction>& prediction, std::string_view which = {});
 
 }  // namespace slipfit

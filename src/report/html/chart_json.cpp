@@ -59,9 +59,10 @@ Json panel_json(const chart::Panel& panel) {
   return json;
 }
 
-std::string charts_json(const std::vector<html::Figure>& figures) {
+std::string charts_json(const std::vector<html::Figure>& figures, std::string_view which) {
   Json json = Json::object();
   for (const html::Figure& figure : figures) {
+    if (!figure.id.starts_with(which)) continue;
     Json& one = json[figure.id];
     one = {{"title", figure.title}, {"guide", figure.guide}, {"absent", figure.absent}};
     one["panels"] = figure.chart ? array_of(figure.chart->panels, panel_json) : Json::array();
@@ -71,19 +72,20 @@ std::string charts_json(const std::vector<html::Figure>& figures) {
 
 }  // namespace
 
-std::string report_charts(const Recording& recording, const Analysis& analysis, const Background& background) {
+std::string report_charts(const Recording& recording, const Analysis& analysis, const Background& background,
+                          std::string_view which) {
   html::Source source = html::source_of(recording, analysis, background);
   source.trace_columns = recording.size();
-  return charts_json(html::figures_of(source));
+  return charts_json(html::figures_of(source), which);
 }
 
 std::string report_charts(std::span<const SweepEntry> entries, const SweepAnalysis& sweep,
-                          const std::optional<Prediction>& prediction) {
+                          const std::optional<Prediction>& prediction, std::string_view which) {
   const html::SweepSource source{entries, sweep, prediction};
   std::vector<html::Figure> figures{html::sweep_spacing_figure(source), html::sweep_friction_figure(source),
                                     html::sweep_cycles_figure(source)};
   for (html::Figure& figure : html::sweep_traces_figures(source)) figures.push_back(std::move(figure));
-  return charts_json(figures);
+  return charts_json(figures, which);
 }
 
 }  // namespace slipfit

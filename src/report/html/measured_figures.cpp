@@ -1,3 +1,4 @@
+#include "core/statistics.hpp"
 #include "report/html/figure.hpp"
 
 #include <fmt/format.h>
@@ -497,23 +498,8 @@ namespace {
 constexpr std::size_t kPhaseBins = 24;  // of the stick, and as many of the slip
 constexpr std::size_t kFewestInBin = 3;
 
-/// Sums the residuals of a part of the cycle, one mean a cycle.
-struct PhaseBin {
-  std::size_t cycles = 0;
-  double sum = 0.0;
-  double square = 0.0;
-
-  void add(double mean) {
-    ++cycles;
-    sum += mean;
-    square += mean * mean;
-  }
-  [[nodiscard]] double mean() const { return sum / static_cast<double>(cycles); }
-  [[nodiscard]] double standard_error() const {
-    const auto count = static_cast<double>(cycles);
-    return std::sqrt(std::max(0.0, square / count - mean() * mean()) / (count - 1.0));
-  }
-};
+/// Holds the residual in a part of the cycle: its mean in each of the cycles.
+using PhaseBin = std::vector<double>;
 
 /// Adds the residuals of the samples between two times, which the bins divide evenly.
 void add_residuals(const Source& source, double begin_s, double end_s, std::span<PhaseBin> bins) {
@@ -530,7 +516,7 @@ void add_residuals(const Source& source, double begin_s, double end_s, std::span
     counts[bin] += 1.0;
   }
   for (std::size_t bin = 0; bin < bins.size(); ++bin) {
-    if (counts[bin] > 0.0) bins[bin].add(sums[bin] / counts[bin]);
+    if (counts[bin] > 0.0) bins[bin].push_back(sums[bin] / counts[bin]);
   }
 }
 
@@ -568,15 +554,15 @@ Figure residuals_figure(const Source& source) {
   std::vector<Point> lower;
   Span span;
   for (std::size_t i = 0; i < bins.size(); ++i) {
-    const PhaseBin& bin = bins[i];
-    if (bin.cycles < kFewestInBin) continue;
+    if (bins[i].size() < kFewestInBin) continue;
+    const MeanAndSpread residual = describe(bins[i]);
     const double phase = (static_cast<double>(i) + 0.5) / static_cast<double>(kPhaseBins) - 1.0;
-    const double error = 2.0 * bin.standard_error();
-    mean.points.push_back({phase, bin.mean()});
-    band.outline.push_back({phase, bin.mean() + error});
-    lower.push_back({phase, bin.mean() - error});
-    span.add(bin.mean() + error);
-    span.add(bin.mean() - error);
+    const double error = 2.0 * residual.sd / std::sqrt(residual.count);
+    mean.points.push_back({phase, residual.mean});
+    band.outline.push_back({phase, residual.mean + error});
+    lower.push_back({phase, residual.mean - error});
+    span.add(band.outline.back().y);
+    span.add(lower.back().y);
   }
   if (mean.points.size() < 3) return figure.without_chart("There are too few fitted cycles.");
   band.outline.insert(band.outline.end(), lower.rbegin(), lower.rend());
