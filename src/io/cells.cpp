@@ -331,7 +331,6 @@ std::optional<DateStart> read_date(std::string_view text) {
 
 namespace {
 
-constexpr std::size_t kLongest = 64;
 constexpr std::size_t kMostShapes = 256;
 
 /// Returns the shape of a cell, or an empty text if it does not look like a number.
@@ -340,7 +339,7 @@ std::string shape_of(std::string_view cell) {
   bool has_digit = false;
   for (const char c : cell) {
     const bool is_letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
-    if (cell.size() > kLongest || c == ':' || c == '/' || (is_letter && c != 'e' && c != 'E')) return {};
+    if (cell.size() > kLongestNumber || c == ':' || c == '/' || (is_letter && c != 'e' && c != 'E')) return {};
     has_digit = has_digit || is_digit(c);
     if (!is_digit(c)) {
       shape += c;

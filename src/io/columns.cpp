@@ -58,16 +58,16 @@ std::string list_columns(const Layout& layout) {
 
 std::size_t find_column_of_any(const Layout& layout, const std::string& wanted, const std::string& option,
                                const std::string& file) {
-  auto found = columns_called(layout, printable(wanted));
+  auto found = columns_called(layout, printable_utf8(wanted));
   const auto place = place_in_list(wanted, layout.columns.size());
   if (found.empty() && place) found = {*place};
   if (found.empty()) {
     throw ThrownError({"unknown_column", fmt::format("{}: no column '{}'; {}; choose one with {}", file,
-                                                     printable(wanted), list_columns(layout), option)});
+                                                     printable_utf8(wanted), list_columns(layout), option)});
   }
   if (found.size() > 1) {
     throw ThrownError({"unknown_column", fmt::format("{}: several columns are called '{}'; {}; give the number with {}",
-                                                     file, printable(wanted), list_columns(layout), option)});
+                                                     file, printable_utf8(wanted), list_columns(layout), option)});
   }
   return found.front();
 }
@@ -120,7 +120,7 @@ struct Request {
 ThrownError unit_error(const Request& request, std::size_t column, const std::string& cause,
                        const std::string& option) {
   return ThrownError({"unknown_unit", fmt::format("{}: the unit of {}: {}; give it with {}", request.file,
-                                                  describe(request.layout, column), printable(cause), option)});
+                                                  describe(request.layout, column), printable_utf8(cause), option)});
 }
 
 bool mentions(const std::string& name, std::initializer_list<std::string_view> words) {
@@ -172,9 +172,9 @@ Channel time_channel(const Request& request, std::size_t column) {
   channel.scale = scale.value().scale;
   channel.is_clock = is_guess && guess.unit == "d";
   channel.is_unit_assumed = is_guess;
-  channel.sentence = is_guess
-                         ? fmt::format("Time is {}, assumed to be in {} ({}).", name, unit, guess.why)
-                         : fmt::format("Time is {}, in {}{}.", name, printable(unit), stated ? " (as stated)" : "");
+  channel.sentence =
+      is_guess ? fmt::format("Time is {}, assumed to be in {} ({}).", name, unit, guess.why)
+               : fmt::format("Time is {}, in {}{}.", name, printable_utf8(unit), stated ? " (as stated)" : "");
   return channel;
 }
 
@@ -296,8 +296,9 @@ Channel scaled_channel(const Request& request, std::size_t column, const std::st
     throw unit_error(request, column, fmt::format("'{}' is not the unit of --force-scale '{}'", unit, text),
                      "--force-unit");
   }
-  return Channel{column, (is_known ? of_column->factor : 1.0) * scale->N_per_SI, ForceQuantity::Force_N,
-                 fmt::format("Force is {}, in {}, at {} (as stated).", described, printable(unit), printable(text))};
+  return Channel{
+      column, (is_known ? of_column->factor : 1.0) * scale->N_per_SI, ForceQuantity::Force_N,
+      fmt::format("Force is {}, in {}, at {} (as stated).", described, printable_utf8(unit), printable_utf8(text))};
 }
 
 /// A torque over the radius at which the contact lies. Error: no_radius.
@@ -306,7 +307,7 @@ Channel torque_channel(const Request& request, std::size_t column, const std::st
   const double radius_m = radius_for_torque(request.options.radius_m, fmt::format("{}: {}", request.file, described));
   return Channel{column, N_m / radius_m, ForceQuantity::Force_N,
                  fmt::format("Force is {}, a torque (unit {}), divided by the radius of {} m.", described,
-                             printable(unit), radius_m)};
+                             printable_utf8(unit), radius_m)};
 }
 
 /// Returns advice for a unit that is not a force.
@@ -338,7 +339,7 @@ Channel force_channel(const Request& request, std::size_t column) {
   const std::string unit = is_stated ? *request.options.force_unit : request.layout.columns[column].name.unit;
   if (unit.empty()) return without_unit(request, column);
   const std::string described = describe(request.layout, column);
-  const std::string in_unit = fmt::format("in {}{}", printable(unit), is_stated ? " (as stated)" : "");
+  const std::string in_unit = fmt::format("in {}{}", printable_utf8(unit), is_stated ? " (as stated)" : "");
   const auto as_force = parse_unit(unit, Dimension::Force);
   if (as_force) {
     return Channel{column, as_force.value().scale, ForceQuantity::Force_N,
@@ -458,7 +459,7 @@ std::optional<Channel> choose(const SideRole& role, const Layout& layout, const 
     if (auto channel = role.in_SI(layout, column, options)) return channel;
     throw ThrownError({"unknown_unit", fmt::format("{}: the unit of {}: '{}' is not {}; leave the option out", file,
                                                    describe(layout, column),
-                                                   printable(layout.columns[column].name.unit), role.expected)});
+                                                   printable_utf8(layout.columns[column].name.unit), role.expected)});
   }
   const auto found = best_columns(layout, [&](const Column& column, std::size_t c) {
     const bool is_taken = c == choice.force.column || (choice.time && c == choice.time->column);

@@ -142,7 +142,7 @@ std::vector<TableInfo> inspect_each(const std::filesystem::path& path, const std
     tables.push_back(inspect_whole(std::move(file), name, options));
   } else {
     visit_tables(std::move(file), name, [&](const PackedTable& table) {
-      const std::string place = name + " ('" + printable(table.name) + "')";
+      const std::string place = name + " ('" + printable_utf8(table.name) + "')";
       auto info = with_errors_of_reading(
           place, [&] { return inspect(open_file(table.open(), place, options), place, options); });
       TableInfo& added = tables.emplace_back(TableInfo{table.name, options, std::move(info)});

@@ -108,7 +108,7 @@ std::optional<Error> set_unit(ManifestEntry& entry, const std::string& cell) {
   const Result<UnitScale> unit = parse_unit(cell, dimension);
   const bool is_other = dimension == Dimension::Force &&
                         (parse_unit(cell, Dimension::Dimensionless) || parse_unit(cell, Dimension::Torque));
-  if (!unit && !is_other) return Error{"unknown_unit", printable(unit.error().message)};
+  if (!unit && !is_other) return Error{"unknown_unit", printable_utf8(unit.error().message)};
   entry.options.*target = cell;
   return std::nullopt;
 }
@@ -363,7 +363,7 @@ class ManifestReader::Implementation {
       throw ThrownError(
           {"not_readable", fmt::format("{}: reading failed ({}); expected a text file with a line for each "
                                        "recording",
-                                       place(), printable(error.what()))});
+                                       place(), printable_utf8(error.what()))});
     }
   }
 
@@ -373,9 +373,9 @@ class ManifestReader::Implementation {
     entry.line = lines_.number();
     const std::vector<std::string> cells = fields_of(line);
     if (cells.size() != columns_.count) {
-      throw ThrownError(
-          {"wrong_field_count", fmt::format("{}: {} in '{}', expected {} as in the header line", place(),
-                                            counted(cells.size(), "field"), printable(trim(line)), columns_.count)});
+      throw ThrownError({"wrong_field_count",
+                         fmt::format("{}: {} in '{}', expected {} as in the header line", place(),
+                                     counted(cells.size(), "field"), printable_utf8(trim(line)), columns_.count)});
     }
     for (const ManifestColumn& column : columns_.read) {
       auto result = with_cell(std::move(entry), column, cells[column.index], delimiter_ == ';');
@@ -447,7 +447,7 @@ Result<std::vector<ManifestEntry>> read_manifest_group(const std::filesystem::pa
     return Error{"unknown_group", name + ": no recording has a group; add a column 'group', or leave out --group"};
   }
   return Error{"unknown_group", fmt::format("{}: no recording of group '{}', expected one of: {}", name,
-                                            printable(*group), fmt::join(groups, ", "))};
+                                            printable_utf8(*group), fmt::join(groups, ", "))};
 }
 
 Error in_words_of_manifest(Error error) {
@@ -490,13 +490,13 @@ Result<std::optional<ManifestColumn>> recognise(const std::string& name, std::si
   for (const ManifestField& field : manifest_fields()) {
     const auto text = unit_behind(name, field.said.column);
     if (!text) continue;
-    if (text->unit.empty()) return std::optional(ManifestColumn{&field, index, printable(name), std::nullopt, {}});
+    if (text->unit.empty()) return std::optional(ManifestColumn{&field, index, printable_utf8(name), std::nullopt, {}});
     if (!field.dimension) continue;
     const Result<UnitScale> unit = parse_unit(text->unit, *field.dimension);
     if (unit) {
       const bool is_si = unit.value().scale == 1.0;
-      return std::optional(ManifestColumn{&field, index, printable(name), unit.value().scale,
-                                          is_si ? std::string() : printable(text->unit)});
+      return std::optional(ManifestColumn{&field, index, printable_utf8(name), unit.value().scale,
+                                          is_si ? std::string() : printable_utf8(text->unit)});
     }
     if (!text->in_brackets) continue;
     if (*field.dimension == Dimension::Speed && parse_unit(text->unit, Dimension::AngularSpeed)) {
@@ -504,10 +504,10 @@ Result<std::optional<ManifestColumn>> recognise(const std::string& name, std::si
           "unknown_unit",
           fmt::format("{}: column '{}': '{}' is a rotation, expected the speed at the contact (rotation in rad/s "
                       "times the radius), such as speed [mm/s]",
-                      place, printable(name), printable(text->unit))};
+                      place, printable_utf8(name), printable_utf8(text->unit))};
     }
     return Error{"unknown_unit",
-                 fmt::format("{}: column '{}': {}", place, printable(name), printable(unit.error().message))};
+                 fmt::format("{}: column '{}': {}", place, printable_utf8(name), printable_utf8(unit.error().message))};
   }
   return std::optional<ManifestColumn>();
 }
@@ -560,7 +560,7 @@ Result<double> number_in(const std::string& text, const ManifestEntry& entry, co
     }
     Result<double> value =
         field.dimension == Dimension::Speed ? speed_in(text, entry) : parse_quantity(text, *field.dimension);
-    return value ? value : Result<double>(Error{value.error().code, printable(value.error().message)});
+    return value ? value : Result<double>(Error{value.error().code, printable_utf8(value.error().message)});
   }
   const Cell number = read_cell(text, decimal_comma && text.find(',') != std::string::npos);
   if (number.kind == CellKind::Number && number.tag.empty()) return number.value * *column.scale;
@@ -574,7 +574,8 @@ std::optional<Error> set_number(ManifestEntry& entry, const ManifestColumn& colu
   const ManifestField::Bound bound = column.field->bound;
   const bool is_too_low = bound == ManifestField::Bound::AboveZero && !(number.value() > 0.0);
   if (is_too_low || (bound == ManifestField::Bound::NotNegative && number.value() < 0.0)) {
-    return Error{"out_of_range", fmt::format("'{}' is {} zero", printable(cell), is_too_low ? "not above" : "below")};
+    return Error{"out_of_range",
+                 fmt::format("'{}' is {} zero", printable_utf8(cell), is_too_low ? "not above" : "below")};
   }
   if (!std::isfinite(number.value())) return refusal("bad_number", cell, "a finite number");
   column.field->set_number(entry, number.value());
@@ -613,7 +614,7 @@ Result<ManifestColumns> find_manifest_columns(const std::vector<std::string>& na
     const auto column = recognise(names[i], i, place);
     if (!column) return column.error();
     if (!column.value()) {
-      columns.ignored.push_back(printable(names[i]));
+      columns.ignored.push_back(printable_utf8(names[i]));
       continue;
     }
     if (const ManifestColumn* const other = find_read(columns, column.value()->field)) {
@@ -662,7 +663,7 @@ Result<ManifestEntry> entry_from_cells(std::vector<NamedCell> cells) {
   for (const NamedCell& cell : cells) {
     const auto column = recognise(cell.column, 0, cell.column);
     if (!column || !column.value()) {
-      return Error{"unknown_option", fmt::format("there is no option '{}'", printable(cell.column))};
+      return Error{"unknown_option", fmt::format("there is no option '{}'", printable_utf8(cell.column))};
     }
     auto with = with_cell(std::move(entry), *column.value(), cell.text, false);
     if (!with) {

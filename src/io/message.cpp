@@ -35,7 +35,7 @@ std::string to_utf8(std::string_view text) {
   return result;
 }
 
-std::string printable(std::string_view text) {
+std::string printable_utf8(std::string_view text) {
   return slipfit::printable(to_utf8(text));
 }
 
@@ -55,7 +55,7 @@ std::string counted(std::size_t count, std::string_view noun) {
 }
 
 std::optional<Error> refusal(const char* code, const std::string& cell, const char* expected) {
-  return Error{code, fmt::format("bad value '{}', expected {}", printable(cell), expected)};
+  return Error{code, fmt::format("bad value '{}', expected {}", printable_utf8(cell), expected)};
 }
 
 Error duplicate_id(const std::string& file, const ManifestEntry& entry, std::size_t first_line) {

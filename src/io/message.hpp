@@ -22,7 +22,7 @@ void append_utf8(std::string& text, unsigned code_point);
 std::string to_utf8(std::string_view text);
 
 /// Text of a file, in UTF-8 or Latin-1, as one line that slipfit::printable makes of it.
-std::string printable(std::string_view text);
+std::string printable_utf8(std::string_view text);
 
 /// 0-based, of a 1-based number as text; empty where the text is none, or one beyond `count`.
 std::optional<std::size_t> place_in_list(std::string_view text, std::size_t count);

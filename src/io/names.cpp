@@ -223,8 +223,8 @@ bool is_load(const ColumnName& name) {
 
 ColumnName read_name(std::string_view name_cell, std::string_view unit_cell) {
   ColumnName name;
-  name.text = printable(unquote(name_cell));
-  std::string unit_text = printable(unquote(unit_cell));
+  name.text = printable_utf8(unquote(name_cell));
+  std::string unit_text = printable_utf8(unquote(unit_cell));
   if (unit_text.size() > 2 && std::string_view("[({").find(unit_text.front()) != std::string_view::npos) {
     unit_text = unit_text.substr(1, unit_text.size() - 2);
   }

@@ -26,7 +26,7 @@ constexpr std::size_t kLongestLine = kLongHead / 4;  // of a file without rows o
 
 /// Errors: comma_twice, rows_before_data.
 void check_layout(const std::vector<std::string_view>& lines, const Layout& layout, const std::string& file) {
-  const auto shown = [&lines](std::size_t line) { return printable(lines[line - 1].substr(0, kMostShown)); };
+  const auto shown = [&lines](std::size_t line) { return printable_utf8(lines[line - 1].substr(0, kMostShown)); };
   if (is_comma_twice(lines, layout)) {
     throw ThrownError(
         {"comma_twice", fmt::format("{}:{}: the comma is both the column separator and the decimal sign ('{}'); export "
@@ -151,7 +151,7 @@ Error error_of_reading(const std::string& file) {
   } catch (const std::bad_alloc&) {
     return {"out_of_memory", file + ": not enough memory; read a part with --window"};
   } catch (const std::exception& e) {
-    return {"not_readable", file + ": reading failed (" + printable(e.what()) + "); check the disk"};
+    return {"not_readable", file + ": reading failed (" + printable_utf8(e.what()) + "); check the disk"};
   }
 }
 

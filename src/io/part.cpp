@@ -126,7 +126,7 @@ void check_unread(const Rows& rows, const LoadedFile& file) {
        fmt::format("{}:{}: {} such as '{}' in {} cannot be read as numbers in more than a tenth of the rows; write "
                    "digits, one decimal sign and a leading minus, or choose another column with {}",
                    file.name, rows.unread->first_line, counted(rows.unread->count, "cell"),
-                   printable(rows.unread->example), describe(file.layout, rows.unread->column),
+                   printable_utf8(rows.unread->example), describe(file.layout, rows.unread->column),
                    is_time ? "--time-column" : "--force-column")});
 }
 
@@ -144,7 +144,7 @@ void check_extent(const Rows& rows, const LoadedFile& file) {
   const std::string rows_asked =
       file.options.rows ? fmt::format("rows {}:{}", file.options.rows->first, file.options.rows->last) : "all rows";
   const std::string of_where =
-      where ? fmt::format(" with '{1}' in {0}", describe(file.layout, where->column), printable(where->text)) : "";
+      where ? fmt::format(" with '{1}' in {0}", describe(file.layout, where->column), printable_utf8(where->text)) : "";
   throw ThrownError(
       {"part_empty", fmt::format("{}: {}{} contain {}; the file has {}: choose others with {}", file.name, rows_asked,
                                  of_where, held, counted(rows.count, "row"), where ? "--where" : "--rows")});
@@ -170,7 +170,7 @@ std::vector<std::string> part_sentences(const Part& part, const LoadedFile& file
   if (file.choice.where) {
     sentences.push_back(fmt::format("Only rows with '{1}' in {0} were read.",
                                     describe(file.layout, file.choice.where->column),
-                                    printable(file.choice.where->text)));
+                                    printable_utf8(file.choice.where->text)));
   }
   sentences.insert(sentences.end(), part.assumed.begin(), part.assumed.end());
   if (file.options.window) {

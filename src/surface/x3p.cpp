@@ -54,7 +54,7 @@ double number_in(const SurfaceFile& file, const pugi::xml_node& axis, const char
   if (std::isfinite(value)) return value;
   throw damaged_surface(file, fmt::format("{} of axis {} in its main.xml is '{}', expected a number of metres without "
                                           "a unit",
-                                          field, axis.name(), reading::printable(node.text().as_string())));
+                                          field, axis.name(), reading::printable_utf8(node.text().as_string())));
 }
 
 /// `step`: the increment of an incremental axis that states none. Error: damaged_surface.
@@ -65,7 +65,7 @@ Axis axis_of(const SurfaceFile& file, const pugi::xml_node& axes, const char* na
   const std::string_view type = trim(node.child("DataType").text().as_string("D"));
   if (type.size() != 1 || std::string_view("ILFD").find(type) == std::string_view::npos) {
     throw damaged_surface(file, fmt::format("DataType of axis {} in its main.xml is '{}', expected I, L, F or D", name,
-                                            reading::printable(type)));
+                                            reading::printable_utf8(type)));
   }
   axis.type = type.front();
   axis.increment = number_in(file, node, "Increment", axis.is_absolute ? 1.0 : step);
@@ -99,7 +99,7 @@ struct X3p {
 std::string linked(const X3p& x3p, const char* link, std::size_t most) {
   const std::string name(trim(x3p.record3.child("DataLink").child(link).text().as_string()));
   if (name.empty() || x3p.archive.find(name) == nullptr) {
-    throw damaged_surface(x3p.file, "it names a part '" + reading::printable(name) + "' that it does not contain");
+    throw damaged_surface(x3p.file, "it names a part '" + reading::printable_utf8(name) + "' that it does not contain");
   }
   return x3p.archive.content(name, most);
 }

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "core/thresholds.hpp"
+#include "fit/cycle/sensor.hpp"
 #include "signal/smoothing.hpp"
 
 namespace slipfit::fit {
@@ -20,7 +21,6 @@ struct WaveSums {
 
 constexpr std::size_t kBinsPerRamp = 4;  // lets a bent ramp or a drift show; a straight one loses nothing
 constexpr std::size_t kMinRampSamples = 2;
-constexpr double kForgottenLags = 8.0;  // e^-8: what a lagging sensor still shows of the slip before
 
 class Cutter {
  public:

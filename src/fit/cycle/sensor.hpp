@@ -11,6 +11,9 @@
 
 namespace slipfit::fit {
 
+/// Lags after which a sensor shows nothing more of a slip: e^-8.
+inline constexpr double kForgottenLags = 8.0;
+
 /// What the instrument does to the force of one cycle, in the scaled units of model/slip.hpp. docs/model.md section 7
 /// - a low-pass filter with a Butterworth response of some order, of which the first is y' + kappa y = kappa z;
 /// - a moving average over w_n W around the time stamp.

@@ -40,7 +40,7 @@ std::vector<CycleRun> runs_of(const Recording& recording, const BlockFit& fit) {
 }
 
 /// Sums over samples of one frequency, phase counted from the first sample of the recording.
-struct Correlation {
+struct ToneSums {
   double used = 0.0, cc = 0.0, cs = 0.0, rc = 0.0, rs = 0.0;
 
   /// Amplitude^2 of the least-squares sine.
@@ -53,7 +53,7 @@ struct Correlation {
 };
 
 /// The phasor turns by a fixed step from sample to sample, four of them side by side.
-void add_even(const double* values, std::size_t count, double phase, double step, Correlation& sums) {
+void add_even(const double* values, std::size_t count, double phase, double step, ToneSums& sums) {
   using Lanes = Eigen::Array4d;
   const double turn_c = std::cos(4.0 * step);
   const double turn_s = std::sin(4.0 * step);
@@ -82,7 +82,7 @@ void add_even(const double* values, std::size_t count, double phase, double step
 }
 
 void add_uneven(const double* values, const double* time_s, std::size_t count, double begin_s, double omega,
-                Correlation& sums) {
+                ToneSums& sums) {
   for (std::size_t i = 0; i < count; ++i) {
     if (values[i] == 0.0) continue;
     const double c = std::cos(omega * (time_s[i] - begin_s));
@@ -112,7 +112,7 @@ double Rest::power_at(double frequency_Hz) const {
   const double omega = 2.0 * std::numbers::pi * frequency_Hz;
   const double step = omega * (recording_.duration_s() / static_cast<double>(values_.size() - 1));
   const auto time_s = recording_.time_s();
-  Correlation sums;
+  ToneSums sums;
   for (const CycleRun& run : runs_) {
     const std::size_t count = run.end - run.begin;
     if (count == 0) continue;

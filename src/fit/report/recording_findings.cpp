@@ -178,7 +178,7 @@ std::optional<Bend> bend_of(const BlockFit& blocks) {
   return largest;
 }
 
-StiffnessFindings stiffness_of(const Recording& recording, const TierFits& fits) {
+StiffnessFindings stiffness_findings(const Recording& recording, const TierFits& fits) {
   StiffnessFindings result;
   if (fits.damped.held[kLogStiffness]) return result;
   const BlockFit& blocks = reported(fits);
@@ -420,7 +420,7 @@ Findings findings_of(const Recording& recording, const TierFits& fits, const Res
   DampingFindings damping = damping_of(fits, blocks);
   damping.estimate.ci95 = lengthened_damping(*damping.estimate.ci95, spread);
   spread.profile = std::move(damping.profile);
-  StiffnessFindings stiffness = stiffness_of(recording, fits);
+  StiffnessFindings stiffness = stiffness_findings(recording, fits);
   spread.covariance(kLogStiffness, kLogStiffness) += stiffness.variance;
   const TrendFindings trend = find_level_trend(recording, fits.damped);
   spread = with_trend(std::move(spread), trend, blocks.scales().force);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/thresholds.hpp"
+#include "fit/cycle/sensor.hpp"
 #include "fit/inference/smoothing.hpp"
 #include "fit/selection/finish.hpp"
 #include "fit/selection/solution.hpp"
@@ -17,7 +18,6 @@
 namespace slipfit::fit {
 namespace {
 
-constexpr double kForgottenLags = 8.0;  // e^-8
 /// Variance of an impulse response with a long tail that rounds slips as much as an average of variance 1.
 constexpr double kLongTail = 3.0;
 

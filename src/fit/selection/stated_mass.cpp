@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kStep = 0.01;  // of ln w_n
 
-double stiffness_of(const DampedFit& fit) {
+double fitted_stiffness(const DampedFit& fit) {
   return std::exp(fit.blocks.parameters.values(kLogStiffness));
 }
 
@@ -66,18 +66,18 @@ DampedFit fit_with_mass(const FitInput& input, DampedFit fit) {
   constexpr int kRounds = 2;  // k changes little with w_n
   const double average_s = fit.blocks.sensor().average_s;
   const std::optional<StatedMass> mass =
-      mass_for_frequency(input.recording.conditions(), input.held, stiffness_of(fit), average_s);
+      mass_for_frequency(input.recording.conditions(), input.held, fitted_stiffness(fit), average_s);
   if (!mass) return fit;
   const Recording recording = fit.average ? with_average(input.recording, average_s) : input.recording;
   HeldParameters held = input.held;
   const FitInput averaged{recording, input.quality, input.segmentation, held};
-  double stiffness = stiffness_of(fit);
+  double stiffness = fitted_stiffness(fit);
   std::optional<DampedFit> by_mass;
   for (int round = 0; round < kRounds; ++round) {
     held.natural_frequency_rad_per_s = mass->frequency_rad_per_s(stiffness);
     by_mass = draft_with_rise(averaged);
     if (!by_mass) return fit;
-    stiffness = stiffness_of(*by_mass);
+    stiffness = fitted_stiffness(*by_mass);
   }
   const bool contradicts = by_mass->uncertainty.noise > thresholds::kContradictedMass * fit.uncertainty.noise;
   const std::optional<Coordinates> move = by_log_frequency(*by_mass);

@@ -83,8 +83,8 @@ constexpr std::array kWeakeningsWithAverage{0.1, 0.45};
 constexpr std::array kRiseLengths{1.0, 0.5};
 
 constexpr int kRiseStarts = 6;
-constexpr double kShortestRise = 0.02;  // of a stick
-constexpr double kSlip2 = 5.6;          // W^2 of an average that draws the fall out as much as the slip itself does
+constexpr double kShortestRiseShare = 0.02;  // of a stick
+constexpr double kSlip2 = 5.6;  // W^2 of an average that draws the fall out as much as the slip itself does
 constexpr std::size_t kFewCycles = 16;
 constexpr std::size_t kLeastEnough = 40;
 constexpr std::size_t kMostEnough = 64;
@@ -101,7 +101,7 @@ constexpr double kFinalTolerance = 1e-3;
 /// Steps gain little along the valley of D_c or W, zeta and w_n: what ends other fits leaves them an error off.
 constexpr double kValleyTolerance = 1e-7;
 constexpr double kSameAverage = 0.1;  // of ln W: two starts that led to one minimum
-constexpr double kNothing = 0.1;      // of its error: a slip distance that is none
+constexpr double kNoDistance = 0.1;   // of its error: a slip distance that is none
 
 double residuals_of(const std::vector<CycleData>& cycles) {
   double residuals = 0.0;
@@ -381,7 +381,7 @@ std::vector<TermFitter::Start> TermFitter::starts_of(Terms terms) const {
 std::vector<double> TermFitter::lengths_of_rise() const {
   const double speed = plain_.blocks.scales().speed_m_per_s;
   const double stick_m = speed * median_stick_s(plain_.blocks);
-  const double shortest_m = std::max(2.0 * speed * input_.recording.sample_interval_s(), kShortestRise * stick_m);
+  const double shortest_m = std::max(2.0 * speed * input_.recording.sample_interval_s(), kShortestRiseShare * stick_m);
   const double longest_m = kLongestRise * stick_m;
   std::vector<double> lengths;
   if (!(longest_m > shortest_m)) return lengths;
@@ -474,7 +474,7 @@ bool TermFitter::has_term(const BlockFit& fit) const {
   if (fit.scales().law != FrictionLaw::Weakening || !is_averaged) return is_averaged;
   DampedFit some{fit, false, held_};
   some.uncertainty = estimate_uncertainty(fit, {held_, false});
-  return sigmas_of_distance(some) > kNothing;
+  return sigmas_of_distance(some) > kNoDistance;
 }
 
 /// A level of its own in every cycle may be what the plain fit misses of the slips: a polynomial in its place where it

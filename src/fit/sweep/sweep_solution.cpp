@@ -23,7 +23,7 @@ namespace {
 constexpr double kSlowestRate = 0.3;  // alpha v_c with which the search for another law begins
 /// Sums of squares to a hundredth of what a parameter gains by chance; what creeps on does not explain the slips.
 constexpr Accuracy kCompared{1e-2, 20};
-constexpr Accuracy kRough{0.1, 10};
+constexpr Accuracy kRoughly{0.1, 10};
 
 /// Residual rows over parameters: each stick bin counts as its two rows, as it does in chi2.
 double residual_freedom(const SweepSolution& solution) {
@@ -306,14 +306,14 @@ class SweepFitter {
     SweepSolution start = start_of(data_, sharing, kind.law);
     set_start(start);
     const Held held = held_of(fixed_);
-    if (kind.law == FrictionLaw::Coulomb) return existing(drafted(std::move(start), held, kRough));
+    if (kind.law == FrictionLaw::Coulomb) return existing(drafted(std::move(start), held, kRoughly));
     Held quick = held;
     quick[kFrictionRate] = true;
     constexpr std::array kStartRates{-1.0, 1.0, -4.0};
     std::vector<SweepSolution> drafts = in_parallel(kStartRates.size(), [&](std::size_t i) {
       SweepSolution at_rate = start;
       for (BlockFit& recording : at_rate.recordings) recording.parameters.values(kFrictionRate) = kStartRates[i];
-      return drafted(std::move(at_rate), quick, kRough);
+      return drafted(std::move(at_rate), quick, kRoughly);
     });
     const auto best = std::ranges::min_element(drafts, {}, &SweepSolution::chi2);
     return std::isfinite(best->chi2) ? existing(drafted(std::move(*best), held, kCompared)) : std::nullopt;

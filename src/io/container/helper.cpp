@@ -209,7 +209,7 @@ Helper array_reader(const std::string& kind) {
 }
 
 std::string sentence_of(const std::string& table) {
-  return "Of the file '" + printable(table) + "' was read.";
+  return "Of the file '" + printable_utf8(table) + "' was read.";
 }
 
 TextStream open_with_reader(const char* kind, TextStream packed, const std::string& name,
@@ -264,7 +264,7 @@ class TablePieces {
     left_ = 0;
     if (head.starts_with('!')) {
       const std::size_t blank = std::min(head.find(' '), head.size());
-      throw ThrownError({head.substr(1, blank - 1), name_ + ": " + printable(head.substr(blank))});
+      throw ThrownError({head.substr(1, blank - 1), name_ + ": " + printable_utf8(head.substr(blank))});
     }
     const auto [end, error] = std::from_chars(head.data(), head.data() + head.size(), left_);
     if (error != std::errc() || end != head.data() + head.size()) throw damaged(name_, "the file is damaged");
@@ -317,7 +317,7 @@ HelperOutput run_helper(const Helper& helper, TextStream input, const std::strin
   if (first.starts_with('=')) return {first.substr(1), std::move(bytes)};
   const std::size_t blank = std::min(first.find(' '), first.size());
   if (!first.starts_with('!') || blank == first.size()) throw damaged(name, "the file is damaged");
-  throw ThrownError({first.substr(1, blank - 1), name + ": " + printable(first.substr(blank + 1))});
+  throw ThrownError({first.substr(1, blank - 1), name + ": " + printable_utf8(first.substr(blank + 1))});
 }
 
 TextStream open_hdf5(TextStream packed, const std::string& name, const ContainerChoice& choice) {

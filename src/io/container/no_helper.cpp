@@ -15,14 +15,14 @@ auto with_name(const std::string& name, const Work& work) {
   try {
     return work();
   } catch (const Refusal& refusal) {
-    throw ThrownError({refusal.error().code, name + ": " + printable(refusal.error().message)});
+    throw ThrownError({refusal.error().code, name + ": " + printable_utf8(refusal.error().message)});
   }
 }
 
 TextStream text_of_table(NumberTable table, const std::string& name) {
   TextStream text;
   text.bytes = text_of(std::move(table));
-  text.assumed.push_back("Of the file '" + printable(name) + "' was read.");
+  text.assumed.push_back("Of the file '" + printable_utf8(name) + "' was read.");
   return text;
 }
 

@@ -12,7 +12,7 @@
 
 #include "io/container/cursor.hpp"
 #include "io/container/table_text.hpp"
-#include "slipfit/core/printable.hpp"
+#include "io/message.hpp"
 
 // The format of NumPy's save(), as numpy.lib.format describes it: a line of Python that states type, order and shape of
 // an array, then its numbers.
@@ -49,7 +49,7 @@ struct Field {
 };
 
 /// Holds what the first line of an array states.
-struct Header {
+struct NpyHeader {
   std::vector<Field> fields;
   std::size_t row_bytes = 0;
   std::size_t rows = 0;
@@ -101,8 +101,8 @@ std::vector<std::size_t> shape_of(const std::string& line) {
 }
 
 /// Throws Damaged. Error: damaged_container, for what is no table of numbers.
-Header header_of(std::string_view file, const std::string& name) {
-  Header header;
+NpyHeader npy_header(std::string_view file, const std::string& name) {
+  NpyHeader header;
   Cursor cursor(file, std::endian::little);
   const std::string line(line_of_header(cursor));
   header.numbers = cursor.rest();
@@ -118,7 +118,7 @@ Header header_of(std::string_view file, const std::string& name) {
   for (std::sregex_iterator one(types.begin(), types.end(), field), end; one != end; ++one) {
     const std::string type_name = (*one)[2];
     const ArrayType* const type = type_of(type_name);
-    if (type == nullptr) throw no_table(name, fmt::format("values of the type '{}'", printable(type_name)));
+    if (type == nullptr) throw no_table(name, fmt::format("values of the type '{}'", printable_utf8(type_name)));
     const std::endian order = type_name.front() == '>' ? std::endian::big : std::endian::little;
     for (std::size_t i = 0; i < columns; ++i) {
       header.fields.push_back({(*one)[1], header.row_bytes, order, type});
@@ -135,7 +135,7 @@ Header header_of(std::string_view file, const std::string& name) {
 }
 
 NumberTable table_of(std::string_view file, const std::string& name) {
-  const Header header = header_of(file, name);
+  const NpyHeader header = npy_header(file, name);
   NumberTable table;
   for (const Field& field : header.fields) {
     if (!field.name.empty()) table.names.push_back(field.name);

@@ -291,8 +291,8 @@ std::string choose_group(const std::map<std::string, std::size_t>& values, const
     throw ThrownError(
         {"unknown_variable",
          fmt::format("{}: the TDMS file contains no group '{}' with numbers, only '{}'; choose one with --variable",
-                     name, printable(*choice.variable),
-                     printable(fmt::format("{}", fmt::join(names_of(values), "', '"))))});
+                     name, printable_utf8(*choice.variable),
+                     printable_utf8(fmt::format("{}", fmt::join(names_of(values), "', '"))))});
   }
   return std::ranges::max_element(values, [](const auto& a, const auto& b) { return a.second < b.second; })->first;
 }
@@ -306,7 +306,7 @@ TdmsContent read_file(TextStream packed, const std::string& name) {
     throw ThrownError(
         {"daqmx_channels",
          fmt::format("{}: channel '{}' contains raw DAQmx data, whose scale is not read; export scaled values or CSV",
-                     name, printable(names_in(channel.path).second))});
+                     name, printable_utf8(names_in(channel.path).second))});
   }
   return *std::move(tdms);
 }
@@ -314,7 +314,7 @@ TdmsContent read_file(TextStream packed, const std::string& name) {
 TextStream text_of_group(const TdmsContent& tdms, const std::string& group) {
   TextStream text;
   text.bytes = text_of(table_of(tdms.channels, group));
-  text.assumed.push_back(fmt::format("Group '{}' of the TDMS file was read.", printable(group)));
+  text.assumed.push_back(fmt::format("Group '{}' of the TDMS file was read.", printable_utf8(group)));
   if (tdms.bytes_left_over > 0) {
     text.warnings.push_back(
         {"container_cut", fmt::format("the last block of the TDMS file is cut off: its {} bytes were left out; if "

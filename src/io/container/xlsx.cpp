@@ -270,8 +270,8 @@ TextStream open_workbook(const ZipArchive& archive, const std::string& name, con
   TextStream stream = text_of_sheet(archive, workbook, chosen, name);
   stream.tables = names;
   stream.assumed.push_back(
-      sheets.size() == 1 ? fmt::format("Sheet '{}' of the workbook was read.", printable(chosen.name))
-                         : fmt::format("Sheet '{}' of {} in the workbook was read{}.", printable(chosen.name),
+      sheets.size() == 1 ? fmt::format("Sheet '{}' of the workbook was read.", printable_utf8(chosen.name))
+                         : fmt::format("Sheet '{}' of {} in the workbook was read{}.", printable_utf8(chosen.name),
                                        sheets.size(), choice.sheet ? "" : " (the largest; --sheet selects another)"));
   return stream;
 }

@@ -142,7 +142,7 @@ std::unique_ptr<ByteStream> ZipArchive::stream(const std::string& member) const 
       unzOpenCurrentFile(file) != UNZ_OK) {
     throw damaged(name_,
                   fmt::format("'{}' in it cannot be decompressed (encrypted, damaged, or not compressed with deflate)",
-                              printable(member)));
+                              printable_utf8(member)));
   }
   return std::make_unique<MemberStream>(file, std::shared_ptr<UnpackingLimit>(handle_, &handle_->limit), name_);
 }
@@ -167,7 +167,7 @@ std::vector<std::string> files_in(const ZipArchive& archive, const std::string& 
 TextStream text_of_member(const ZipArchive& archive, const std::string& member) {
   TextStream text;
   text.bytes = archive.stream(member);
-  text.assumed.push_back(fmt::format("The file is a zip archive: '{}' was read.", printable(member)));
+  text.assumed.push_back(fmt::format("The file is a zip archive: '{}' was read.", printable_utf8(member)));
   return text;
 }
 
@@ -185,7 +185,7 @@ TextStream open_zip(TextStream packed, const std::string& name, const ContainerC
     throw ThrownError(
         {"unknown_sheet",
          fmt::format("{}: the zip archive contains {} files ({}, {}, ...); unpack it, or choose one with --sheet", name,
-                     names.size(), printable(names[0]), printable(names[1]))});
+                     names.size(), printable_utf8(names[0]), printable_utf8(names[1]))});
   }
   TextStream text = text_of_member(archive, names[choice.sheet ? find_named(names, *choice.sheet, name) : 0]);
   text.tables = names;
@@ -219,10 +219,11 @@ std::size_t find_named(const std::vector<std::string>& names, const std::string&
   constexpr std::size_t kMostListed = 12;
   std::string list;
   for (std::size_t i = 0; i < std::min(names.size(), kMostListed); ++i) {
-    list += fmt::format("{}{} '{}'", i == 0 ? "" : ", ", i + 1, printable(names[i]));
+    list += fmt::format("{}{} '{}'", i == 0 ? "" : ", ", i + 1, printable_utf8(names[i]));
   }
-  throw ThrownError({"unknown_sheet", fmt::format("{}: contains no '{}', only {}{}; choose one with --sheet", file,
-                                                  printable(wanted), list, names.size() > kMostListed ? ", ..." : "")});
+  throw ThrownError(
+      {"unknown_sheet", fmt::format("{}: contains no '{}', only {}{}; choose one with --sheet", file,
+                                    printable_utf8(wanted), list, names.size() > kMostListed ? ", ..." : "")});
 }
 
 }  // namespace slipfit::reading

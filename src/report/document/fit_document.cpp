@@ -20,7 +20,7 @@ constexpr std::size_t kMostRecordings = 10000;  // of a sweep: a plan takes mill
 
 using documents::with_document;
 
-RecordingPlan conditions_of(const JsonNode& recording) {
+RecordingPlan plan_of(const JsonNode& recording) {
   const RecordingPlan made{recording.member("speed_m_per_s").positive(), recording.member("sample_rate_Hz").positive(),
                            recording.member("duration_s").positive()};
   if (made.sample_rate_Hz * made.duration_s > kMostSamples) {
@@ -35,7 +35,7 @@ PlanBasis plan_basis_of(const JsonNode& document, ModelEstimate estimate) {
   PlanBasis result;
   result.estimate = std::move(estimate);
   if (!document.has("recordings")) {
-    result.recordings = {conditions_of(document.member("recording"))};
+    result.recordings = {plan_of(document.member("recording"))};
     result.noise_rms_N = document.member("model").member("residual").member("rms_N").positive();
     result.force_drop_sd_N = document.member("cycles").member("force_drop_sd_N").number();
     return result;
@@ -50,7 +50,7 @@ PlanBasis plan_basis_of(const JsonNode& document, ModelEstimate estimate) {
     const JsonNode member = members.element(i);
     if (member.member("role").text() != "cycles" || !member.has("joint")) continue;
     if (member.member("joint").member("rms_N").is_null()) continue;
-    result.recordings.push_back(conditions_of(member.member("recording")));
+    result.recordings.push_back(plan_of(member.member("recording")));
     noise.push_back(member.member("joint").member("rms_N").positive());
     const std::optional<double> sd = member.member("cycles").member("force_drop_sd_N").number();
     if (sd) scatter.push_back(*sd);
