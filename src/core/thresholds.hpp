@@ -307,14 +307,8 @@ inline constexpr double kWaveRise = 0.65;
 /// kRingingRise]
 inline constexpr double kSuddenRate = 0.3;
 
-/// Time before a single fall over its own, below which it is none. [1; convention]
-inline constexpr double kLeastAlone = 2.5;
-
 /// Drop of a counted slip over the median drop, at least. [1; convention: docs/formats.md]
 inline constexpr double kCountedDrop = 0.25;
-
-/// Fewest slips that follow each other in a stretch that slides. [count; convention]
-inline constexpr std::size_t kFewestInStretch = 4;
 
 /// Duration of the stretch that slides over that of the recording, below which a reader is informed of it. [1;
 /// convention]

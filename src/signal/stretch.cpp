@@ -117,11 +117,11 @@ std::size_t end_of(const std::vector<double>& force, const std::vector<Fall>& fa
 
 SampleRange sliding_stretch(const std::vector<double>& force, const std::vector<Fall>& falls) {
   const SampleRange whole{0, force.size()};
-  if (falls.size() < thresholds::kFewestInStretch) return whole;
+  if (falls.size() < thresholds::kFewestSlips) return whole;
   const Train train(force, falls);
   if (!(train.usual().rise_rate > 0.0)) return whole;
   Run run = longest_run(train, falls.size());
-  if (run.count() < thresholds::kFewestInStretch) return whole;
+  if (run.count() < thresholds::kFewestSlips) return whole;
   Band band = band_of(train, run);
   SampleRange stretch;
   // The last fall is the release where the force does not stay among the others' troughs.
