@@ -54,7 +54,3 @@ TEST_CASE("without a clock the displacement over the speed is the time, and is s
   CHECK(says(recording, {"Time is column 1 'Standardweg [mm]' divided by the driving speed, t = x/V"}));
   CHECK(read_error(content, {}, at_speed(0.0)).code == "no_time_column");
 }
-
-TEST_CASE("a bar parts columns") {
-  CHECK(read_ok("time|force\n0|1\n1|2\n2|1\n").size() == 3);
-}

@@ -11,13 +11,6 @@ struct Refused {
   std::string part;  ///< of the message: place, value or remedy
 };
 
-slipfit::Error read_path_error(const std::filesystem::path& path) {
-  const auto recording = slipfit::read_recording(path, at_speed(1e-3));
-  REQUIRE_FALSE(recording.ok());
-  CHECK(contains(recording.error().message, path.filename().string()));
-  return recording.error();
-}
-
 }  // namespace
 
 TEST_CASE("each unusable content has its own error, in one line with the place") {
@@ -90,23 +83,15 @@ TEST_CASE("each impossible option has its own error") {
             "both") == "conflicting_options");
 }
 
-TEST_CASE("a missing file, a folder and an unreadable file have different errors") {
+TEST_CASE("a file that cannot be read is an error with the reason") {
   const TempFile file("time,force\n0,1\n1,2\n");
-  CHECK(read_path_error(file.path().parent_path() / "absent.csv").code == "file_not_found");
-  CHECK(read_path_error(file.path().parent_path()).code == "is_directory");
   const auto loop = file.path().parent_path() / "loop.csv";
   std::filesystem::create_symlink(loop, loop);  // unreadable for root too
-  const auto error = read_path_error(loop);
-  CHECK(error.code == "not_readable");
-  CHECK(contains(error.message, "Too many levels of symbolic links"));
-}
-
-TEST_CASE("a name with a line break keeps the message on one line") {
-  const TempFile file("", "bad\nname\x1b.csv");
-  const auto recording = slipfit::read_recording(file.path(), at_speed(1e-3));
+  const auto recording = slipfit::read_recording(loop, at_speed(1e-3));
   REQUIRE_FALSE(recording.ok());
-  CHECK(contains(recording.error().message, "bad\\nname\\u001b.csv: the file is empty"));
-  CHECK_FALSE(contains(recording.error().message, "\n"));
+  CHECK(recording.error().code == "not_readable");
+  CHECK(contains(recording.error().message, "loop.csv"));
+  CHECK(contains(recording.error().message, "Too many levels of symbolic links"));
 }
 
 TEST_CASE("a line above 16 MB is refused and not read further") {

@@ -79,10 +79,12 @@ TEST_CASE("text in the place of a unit that is none is refused, with both option
 TEST_CASE("a remark in brackets is not a unit") {
   for (const std::string name :
        {"Force (left)", "Force (Channel 2)", "Force (filtered)", "Force (load cell)", "Force (2)", "Force (Dev1/ai0)",
-        "Ft/Fn", "Force (measured at the left arm)", "Zeit (UTC)"}) {
+        "Ft/Fn", "Force (measured at the left arm)", "Zeit (UTC)", "Force_Min", "Force MIN", "zoom in", "Sensor u"}) {
     CAPTURE(name);
     CHECK(slipfit::reading::read_name(name, "").unit.empty());
   }
+  CHECK(slipfit::reading::read_name("Kraft (KN)", "").unit == "KN");
+  CHECK(slipfit::reading::read_name("Weg_MM", "").unit == "MM");
 }
 
 TEST_CASE("a torque over the radius is the force") {

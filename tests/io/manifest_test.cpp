@@ -181,16 +181,6 @@ TEST_CASE("each fault of a manifest is one line with file, line, column, value a
   check_error("id,file,speed_m_per_s,force_view\na,a.csv,1,top\n", "unknown_force_view", {"'top'", "contact"});
 }
 
-TEST_CASE("a manifest that cannot be read is an error like that of a recording") {
-  const TempFile file("x");
-  const auto none = ManifestReader::open(file.path().parent_path() / "none.csv");
-  REQUIRE_FALSE(none.ok());
-  CHECK(none.error().code == "file_not_found");
-  const auto folder = ManifestReader::open(file.path().parent_path());
-  REQUIRE_FALSE(folder.ok());
-  CHECK(folder.error().code == "is_directory");
-}
-
 TEST_CASE("the recordings of one group of a manifest") {
   const TempFile file("id,file,speed_m_per_s,group\na,a.csv,1,g\nb,b.csv,1,h\nc,c.csv,1,g\nd,d.csv,1,\n", "runs.csv");
   const auto group = slipfit::read_manifest_group(file.path(), "g");

@@ -79,12 +79,6 @@ TEST_CASE("of a crank only what moves at nearly full speed is a stroke, and anot
   CHECK(warns(wrong.value()[2].recording, "speed_differs_from_displacement"));
 }
 
-TEST_CASE("a file without strokes or segments is refused with that reason") {
-  const std::string plain = "time,force\n0,1\n1,2\n2,1\n3,2\n";
-  CHECK(pieces_of(plain, Pieces::Strokes).error().code == "no_strokes");
-  CHECK(pieces_of(plain, Pieces::Segments).error().code == "no_segments");
-}
-
 TEST_CASE("stretches of one speed each are segments, in each step of the file") {
   std::string text = "Step,time [s],force [N],speed [mm/s]\n";
   int row = 0;

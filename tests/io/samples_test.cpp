@@ -60,16 +60,6 @@ TEST_CASE("samples without times have the clock of the sampling rate, and a part
   CHECK(recording.provenance().window_given);
 }
 
-TEST_CASE("a coefficient of friction becomes a force by the normal force") {
-  Conditions conditions = at(0.01);
-  conditions.normal_force_N = 10.0;
-  ReadOptions options;
-  options.force_unit = "1";
-  const auto read = read_samples({"mu", {0, 1, 2}, {0.1, 0.2, 0.3}}, conditions, options);
-  REQUIRE(read);
-  CHECK(read.value().front().recording.force()[1] == Approx(2.0));
-}
-
 TEST_CASE("samples that are no recording are refused") {
   CHECK(code_of({"a", {0, 1}, {1, 2, 3}}) == "length_mismatch");
   CHECK(code_of({"a", {}, {1, 2, 3}}) == "no_time_column");

@@ -5,7 +5,6 @@
 #include "io/names.hpp"
 
 using slipfit::reading::classify_unit;
-using slipfit::reading::read_name;
 using slipfit::reading::UnitClass;
 
 TEST_CASE("units of columns other than the force are recognised as units") {
@@ -37,13 +36,4 @@ TEST_CASE("units of time, length, force and number are distinguished, with and w
     CAPTURE(expected.unit);
     CHECK(classify_unit(expected.unit) == expected.unit_class);
   }
-}
-
-TEST_CASE("a word behind a name that could be a unit is none") {
-  for (const std::string name : {"Force_Min", "Force MIN", "zoom in", "Sensor u", "Force (left)"}) {
-    CAPTURE(name);
-    CHECK(read_name(name, "").unit.empty());
-  }
-  CHECK(read_name("Kraft (KN)", "").unit == "KN");
-  CHECK(read_name("Weg_MM", "").unit == "MM");
 }

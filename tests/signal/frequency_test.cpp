@@ -224,12 +224,3 @@ TEST_CASE("recordings without anything periodic to measure are answered, not cra
     CHECK_NOTHROW(find(recording, 0.0));
   }
 }
-
-TEST_CASE("the same recording gives the same bytes") {
-  const Recording recording = noisy_saw_tooth({3.3, 0.02, 0.03}, 5000, 0.03, 16);
-  const auto first = find(recording);
-  const auto second = find(recording);
-  CHECK(first.value_Hz == second.value_Hz);
-  CHECK(first.standard_error_Hz == second.standard_error_Hz);
-  CHECK(first.harmonics_Hz == second.harmonics_Hz);
-}

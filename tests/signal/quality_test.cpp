@@ -60,14 +60,6 @@ TEST_CASE("a constant force has no noise, no step, no clipping") {
   CHECK(quality.impulse_mask.empty());
 }
 
-TEST_CASE("the shortest recordings are assessed") {
-  for (std::size_t samples = 2; samples < 12; ++samples) {
-    std::vector<double> force(samples, 1.0);
-    force.back() = 2.0;
-    CHECK(std::isfinite(assess(force).noise_rms));
-  }
-}
-
 TEST_CASE("the step of a coarse converter is found, through the rounding of the file too") {
   const std::vector<double> smooth = noisy_saw_tooth(400.0, 20.0, 0.002, 13);
   const double step = 0.0048828125;

@@ -1,12 +1,10 @@
 #include "slipfit/signal/spectrum.hpp"
 
 #include <catch2/catch.hpp>
-#include <chrono>
 #include <complex>
 #include <numeric>
 #include <thread>
 
-#include "signal/fftw.hpp"
 #include "signal/transform.hpp"
 #include "traces.hpp"
 
@@ -93,15 +91,6 @@ TEST_CASE("an uneven clock is resampled: the line stays where it is") {
   CHECK(spectrum.power[strongest(spectrum)] > 0.2);  // of 0.5 in all; three bins share it
 }
 
-TEST_CASE("printed decimals do not make a clock uneven, a gap does") {
-  std::vector<double> time_s = traces::clock(1000, 2000.0);
-  for (double& t : time_s) t = std::round(t * 1e4) / 1e4;
-  const std::vector<double> force(time_s.size(), 1.0);
-  CHECK(traces::recording(time_s, force).clock_is_even());
-  for (std::size_t i = 500; i < time_s.size(); ++i) time_s[i] += 0.1;
-  CHECK_FALSE(traces::recording(time_s, force).clock_is_even());
-}
-
 TEST_CASE("decimation keeps ramps and removes frequencies above the new Nyquist frequency") {
   std::vector<double> ramp(1000);
   for (std::size_t i = 0; i < ramp.size(); ++i) ramp[i] = 5.0 + 2.0 * static_cast<double>(i);
@@ -163,37 +152,4 @@ TEST_CASE("threads share the planner and get the same bytes") {
   }
   for (std::thread& thread : threads) thread.join();
   for (const Spectrum& result : results) CHECK(result.power == alone.power);
-}
-
-TEST_CASE("a spectrum costs little more than its transform", "[.][speed]") {
-  traces::Generator generator(4);
-  const std::size_t n = 200000;
-  const Recording recording = traces::recording(traces::clock(n, 1000.0), traces::noise_with_memory(n, 0.9, generator));
-  const auto best_of = [](const auto& work) {
-    double best_s = 1e9;
-    for (int run = 0; run < 20; ++run) {
-      const auto start = std::chrono::steady_clock::now();
-      work();
-      best_s = std::min(best_s, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
-    }
-    return best_s;
-  };
-  double* in = fftw_alloc_real(n);
-  fftw_complex* out = fftw_alloc_complex(n / 2 + 1);
-  // Planning included on either side, as one analysis pays it: the lengths alternate so that no plan is reused.
-  const double bare_s = best_of([&] {
-    const fftw_plan plan = fftw_plan_dft_r2c_1d(static_cast<int>(n), in, out, FFTW_ESTIMATE);
-    std::copy(recording.force().begin(), recording.force().end(), in);
-    fftw_execute(plan);
-    fftw_destroy_plan(plan);
-  });
-  std::size_t length = n;
-  const double spectrum_s = best_of([&] {
-    length = length == n ? n + 1 : (length == n + 1 ? n + 1000 : n);
-    signal::hann_power(recording.force(), signal::good_length(length));
-  });
-  fftw_free(in);
-  fftw_free(out);
-  WARN("bare r2c with plan " << 1e3 * bare_s << " ms, spectrum with plan " << 1e3 * spectrum_s << " ms");
-  CHECK(spectrum_s < 1.3 * bare_s);
 }

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "slipfit/core/recording.hpp"
+#include "support/recordings.hpp"
 
 /// Traces for the tests of this folder: generated ones, and the ones that stand beside the checkout.
 namespace traces {
@@ -20,9 +21,7 @@ namespace traces {
 using Generator = std::mt19937_64;
 
 inline slipfit::Recording recording(std::vector<double> time_s, std::vector<double> force) {
-  slipfit::Conditions conditions;
-  conditions.speed_m_per_s = 1e-3;
-  return slipfit::Recording::create(std::move(time_s), std::move(force), conditions).value();
+  return test::recording_of(std::move(time_s), std::move(force), 1e-3);
 }
 
 inline std::vector<double> clock(std::size_t samples, double rate_Hz) {

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "slipfit/core/recording.hpp"
+
+namespace test {
+
+/// A recording at this driving speed; its zero is not stated.
+inline slipfit::Recording recording_of(std::vector<double> time_s, std::vector<double> force, double speed_m_per_s) {
+  slipfit::Conditions conditions;
+  conditions.speed_m_per_s = speed_m_per_s;
+  return slipfit::Recording::create(std::move(time_s), std::move(force), conditions).value();
+}
+
+/// The same clock and conditions with other forces.
+inline slipfit::Recording with_force(const slipfit::Recording& recording, std::vector<double> force) {
+  return slipfit::Recording::create({recording.time_s().begin(), recording.time_s().end()}, std::move(force),
+                                    recording.conditions())
+      .value();
+}
+
+/// The same samples under other conditions, with the normal force of each sample where it is given.
+inline slipfit::Recording with_conditions(const slipfit::Recording& recording, const slipfit::Conditions& conditions,
+                                          std::vector<double> load_N = {}) {
+  return slipfit::Recording::create({recording.time_s().begin(), recording.time_s().end()},
+                                    {recording.force().begin(), recording.force().end()}, conditions, {},
+                                    std::move(load_N))
+      .value();
+}
+
+inline bool warns(const slipfit::Warnings& warnings, std::string_view code) {
+  for (const slipfit::Warning& warning : warnings) {
+    if (warning.code == code) return true;
+  }
+  return false;
+}
+
+}  // namespace test
