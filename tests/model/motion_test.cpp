@@ -1,6 +1,5 @@
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <numbers>
 #include <random>
 #include <string>
 #include <utility>
@@ -10,8 +9,6 @@
 #include "reference_table.hpp"
 #include "slipfit/model/motion.hpp"
 #include "slipfit/model/paper.hpp"
-#include "support/velocity_motion.hpp"
-#include "support/waveform.hpp"
 
 namespace {
 
@@ -125,46 +122,6 @@ TEST_CASE("the paper's approximation agrees with the independent table, unsolvab
       INFO(name);
       CHECK(value == Approx(row[name]).epsilon(1e-10));
     }
-  }
-}
-
-TEST_CASE("undamped closed form holds for random lambda") {
-  std::mt19937_64 random(20240601);
-  std::uniform_real_distribution<double> exponent(-2.0, 4.0);
-  for (int i = 0; i < 200; ++i) {
-    const double lambda = std::pow(10.0, exponent(random));
-    const auto cycle = *unit_motion(lambda, 0.0).cycle;
-    CHECK(cycle.slip_s == Approx(2.0 * (std::numbers::pi - std::atan(lambda))).epsilon(1e-12));
-    CHECK(cycle.stick_s == Approx(2.0 * lambda).epsilon(1e-10));
-    CHECK(cycle.force_peak_N == Approx(std::hypot(1.0, lambda)).epsilon(1e-12));
-  }
-}
-
-TEST_CASE("undamped elastic force and velocity ratio are [Paper] eqs (18), (26) and (27)") {
-  const double lambda = 2.0;
-  const double kinetic_N = 3.0;
-  const auto slider = slipfit::Slider::create(1.0, 1.0, 0.0).value();
-  const auto friction = slipfit::Friction::create(kinetic_N + lambda, kinetic_N).value();
-  const double slip_s = 2.0 * (std::numbers::pi - std::atan(lambda));
-  constexpr std::size_t kCount = 400;
-  const double step_s = (slip_s + 2.0 * lambda) / kCount;
-  const auto force_N =
-      slipfit::damped_waveform(slider, friction, 1.0, slipfit::ForceView::Spring, {0.0, step_s, kCount});
-  std::vector<double> time_s;
-  for (std::size_t i = 0; i < kCount; ++i) time_s.push_back(static_cast<double>(i) * step_s);
-  const auto by_speed = slipfit::VelocityFriction::create(kinetic_N + lambda, kinetic_N, 0.0, 0.0).value();
-  const auto waveform = slipfit::velocity_waveform(slider, by_speed, 1.0, time_s).value();
-  REQUIRE(force_N);
-  const double phase = std::atan(lambda) - std::numbers::pi;  // docs/errata.md, eq. (14)
-  for (std::size_t i = 0; i < kCount; ++i) {
-    const double tau = time_s[i];
-    INFO("tau " << tau);
-    const bool slips = tau < slip_s;
-    const double v = slips ? 1.0 + std::hypot(1.0, lambda) * std::cos(tau + phase) : 0.0;
-    const double above_kinetic_N = slips ? lambda * std::cos(tau) + std::sin(tau) : tau - slip_s - lambda;
-    CHECK(force_N->at(i) == Approx(kinetic_N + above_kinetic_N).epsilon(1e-13));
-    CHECK(waveform.spring_force_N[i] == Approx(kinetic_N + above_kinetic_N).epsilon(1e-11));
-    CHECK(waveform.sliding_speed_m_per_s[i] == Approx(v).margin(1e-11));
   }
 }
 

@@ -78,31 +78,6 @@ TEST_CASE("derivatives of times and forces agree with fourth-order differences")
   }
 }
 
-TEST_CASE("waveforms agree with the slip solution, with events on a sample and one ulp on either side") {
-  std::mt19937_64 random(23);
-  for (int trial = 0; trial < 50; ++trial) {
-    const Values p = random_values(random);
-    const LimitCycle cycle = *damped_motion(slider_of(p), friction_of(p), p[kDrivingSpeed]).cycle;
-    const double step_s = cycle.slip_s / 8.0;  // the end of slip falls on sample 8
-    for (const double shifted_s : {step_s, std::nextafter(step_s, 0.0), std::nextafter(step_s, 1.0)}) {
-      const SampleTimes times{0.0, shifted_s, 400};
-      const auto force_N = damped_waveform(slider_of(p), friction_of(p), p[kDrivingSpeed], ForceView::Spring, times);
-      REQUIRE(force_N);
-      INFO("trial " << trial);
-      CHECK(force_N->at(0) == Approx(cycle.onset_force_N).epsilon(1e-12));
-      CHECK(force_N->at(8) == Approx(cycle.end_force_N).epsilon(1e-10).margin(1e-10 * cycle.onset_force_N));
-      const auto [low, high] = std::minmax_element(force_N->begin(), force_N->end());
-      CHECK(*low >= cycle.force_trough_N - 1e-10 * cycle.force_peak_N);
-      CHECK(*high <= cycle.force_peak_N * (1.0 + 1e-10));
-      const auto transmitted =
-          damped_waveform(slider_of(p), friction_of(p), p[kDrivingSpeed], ForceView::Transmitted, times);
-      CHECK(transmitted->at(0) == Approx(p[kStaticFriction]).epsilon(1e-12));
-      const auto contact = damped_waveform(slider_of(p), friction_of(p), p[kDrivingSpeed], ForceView::Contact, times);
-      CHECK(contact->at(3) == Approx(p[kKineticFriction]).epsilon(1e-15));
-    }
-  }
-}
-
 TEST_CASE("energy: what the drive gives, kinetic friction and the damper take") {
   std::mt19937_64 random(31);
   for (int trial = 0; trial < 30; ++trial) {
@@ -156,29 +131,4 @@ TEST_CASE("finite valid parameters never give a number that is not finite") {
   }
   CHECK(bad == 0);
   CHECK(cycles > 100000);
-}
-
-TEST_CASE("waveform derivatives agree with fourth-order differences") {
-  std::mt19937_64 random(29);
-  for (int trial = 0; trial < 20; ++trial) {
-    const Values p = random_values(random);
-    const LimitCycle cycle = *damped_motion(slider_of(p), friction_of(p), p[kDrivingSpeed]).cycle;
-    const SampleTimes times{0.37 * cycle.slip_s, cycle.period_s / 37.3, 120};
-    const auto exact = damped_waveform_sensitivity(slider_of(p), friction_of(p), p[kDrivingSpeed], times);
-    REQUIRE(exact);
-    for (std::size_t sample = 0; sample < times.count; sample += 7) {
-      const auto f = [&](const Values& q) {
-        return (*damped_waveform(slider_of(q), friction_of(q), q[kDrivingSpeed], ForceView::Spring, times))[sample];
-      };
-      CHECK(exact->force_N[sample] == Approx(f(p)).epsilon(1e-11));
-      for (std::size_t i = 0; i < kSensitivityParameters; ++i) {
-        INFO("trial " << trial << " sample " << sample << " parameter " << i);
-        // The second derivative jumps at events: where one crosses a sample within the step, a part of h times it
-        // remains.
-        const double size = cycle.force_peak_N / p[i];
-        CHECK(exact->gradient[sample * kSensitivityParameters + i] ==
-              Approx(difference(f, p, i, 1e-6)).epsilon(1e-6).margin(1e-5 * size));
-      }
-    }
-  }
 }

@@ -1,5 +1,4 @@
-// How a recording is written down does not change what it says: sign, zero, columns, delimiter, encoding, line ends,
-// locale.
+// How a recording is written down does not change what it says: zero, unit, locale.
 #include <fmt/format.h>
 
 #include <catch2/catch.hpp>
@@ -9,7 +8,6 @@
 #include <locale>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "run_program.hpp"
 #include "scenes.hpp"
@@ -49,36 +47,6 @@ std::string replaced(std::string text, const std::string& from, const std::strin
   return text;
 }
 
-std::string utf16(const std::string& ascii) {
-  std::string wide = "\xFF\xFE";
-  for (const char c : ascii) {
-    wide += c;
-    wide += '\0';
-  }
-  return wide;
-}
-
-/// The same numbers, written in every way that a tester's program may choose.
-std::vector<std::pair<std::string, std::string>> spellings(const Scene& scene) {
-  const std::string text = plain(scene);
-  const auto semicolons = [&] {
-    return "time_s;force_N\n" +
-           rows(scene, [](double t, double f) { return replaced(fmt::format("{};{}\n", t, f), ".", ","); });
-  };
-  const auto turned = [&] {
-    return "force_N,note,time_s\n" + rows(scene, [](double t, double f) { return fmt::format("{},x,{}\n", f, t); });
-  };
-  return {{"CRLF", replaced(text, "\n", "\r\n")},
-          {"CR", replaced(text, "\n", "\r")},
-          {"UTF-16", utf16(text)},
-          {"byte order mark", "\xEF\xBB\xBF" + text},
-          {"tabs", replaced(text, ",", "\t")},
-          {"decimal comma", semicolons()},
-          {"other columns", turned()},
-          {"trailing delimiter", replaced(text, "\n", ",\n")},
-          {"comment", "# a line of the tester\n\n" + text}};
-}
-
 /// Decimal comma in C++ and, where the sources of locales are installed (Debian: locales), in C.
 class CommaLocale {
  public:
@@ -108,32 +76,6 @@ class CommaLocale {
 };
 
 }  // namespace
-
-TEST_CASE("the same numbers in another spelling give the same result, bit for bit") {
-  const Scene scene = test::random_scene(GENERATE(range(kFirstWritten, kLastWritten + 1)));
-  CAPTURE(scene.described);
-  const Analysis expected = analyse_text(plain(scene), scene.conditions);
-  for (const auto& [spelling, text] : spellings(scene)) {
-    CAPTURE(spelling);
-    const Analysis found = analyse_text(text, scene.conditions);
-    test::check_same(expected, found);
-    CHECK(found.fit->estimate->stiffness_N_per_m == expected.fit->estimate->stiffness_N_per_m);
-    CHECK(found.fit->estimate->damping_ratio == expected.fit->estimate->damping_ratio);
-  }
-}
-
-TEST_CASE("a force of the other sign is the same recording") {
-  const Scene scene = test::random_scene(GENERATE(range(kFirstWritten, kLastWritten + 1)));
-  CAPTURE(scene.described);
-  // Without the ramp from rest, where the sign of a force of nearly 0 is that of its noise.
-  Scene sliding = scene;
-  const auto quarter = static_cast<std::ptrdiff_t>(scene.time_s.size() / 4);
-  sliding.time_s.erase(sliding.time_s.begin(), sliding.time_s.begin() + quarter);
-  sliding.force_N.erase(sliding.force_N.begin(), sliding.force_N.begin() + quarter);
-  Scene turned = sliding;
-  for (double& force : turned.force_N) force = -force;
-  test::check_same(analyse_text(plain(sliding), scene.conditions), analyse_text(plain(turned), scene.conditions));
-}
 
 TEST_CASE("a known zero removes a constant added to the force") {
   const Scene scene = test::random_scene(GENERATE(range(kFirstWritten, kLastWritten + 1)));
