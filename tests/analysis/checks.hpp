@@ -5,14 +5,14 @@
 
 #include "slipfit/analysis.hpp"
 #include "support/holds.hpp"
+#include "support/recordings.hpp"
 
 namespace slipfit {
 
 using test::holds;
 
 inline bool warns(const Analysis& analysis, const std::string& code) {
-  return std::any_of(analysis.warnings.begin(), analysis.warnings.end(),
-                     [&](const Warning& warning) { return warning.code == code; });
+  return test::warns(analysis.warnings, code);
 }
 
 }  // namespace slipfit

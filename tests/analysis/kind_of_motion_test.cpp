@@ -140,12 +140,16 @@ TEST_CASE("few falls after rises that take three times as long are not stick-sli
   CHECK(analyze(ripple).motion != MotionClass::StickSlip);
 }
 
-TEST_CASE("ripple over the stated drive path is steady sliding") {
+TEST_CASE("ripple over the stated drive path is steady sliding, which has no slips") {
   const Recording ripple = cogging(25.3, 0.001, 4.5, 0.01);
   const Analysis analysis = analyze_and_fit(ripple);
   CHECK(analysis.motion == MotionClass::SteadySliding);
   CHECK(analysis.motion_reason.find("drive path") != std::string::npos);
   CHECK_FALSE(analysis.frequency.quoted.value);
+  CHECK(analysis.cycles.count == 0);
+  CHECK(analysis.cycles.used == 0);
+  CHECK_FALSE(analysis.frequency.counted.value);
+  CHECK(std::ranges::none_of(analysis.cycle_table, [](const Cycle& cycle) { return cycle.used; }));
   CHECK(analyze_and_fit(cogging(25.3, 0.001, 4.5, 0.0083)).motion != MotionClass::SteadySliding);
 }
 
@@ -279,23 +283,6 @@ TEST_CASE("half of the falls no larger than noise makes them is faint, however m
   CHECK(is_faint(falls({2.0, 0.9, 0.7, 2.0}, noise)));
   CHECK_FALSE(is_faint(falls({2.0, 0.9, 2.0}, noise)));
   CHECK_FALSE(is_faint(falls({2.0, 2.0}, noise)));
-}
-
-TEST_CASE("steady sliding reports no slips") {
-  const Analysis analysis = analyze_and_fit(cogging(25.3, 0.001, 4.5, 0.01));
-  REQUIRE(analysis.motion == MotionClass::SteadySliding);
-  CHECK(analysis.cycles.count == 0);
-  CHECK(analysis.cycles.used == 0);
-  CHECK_FALSE(analysis.frequency.counted.value);
-  CHECK(std::ranges::none_of(analysis.cycle_table, [](const Cycle& cycle) { return cycle.used; }));
-}
-
-TEST_CASE("three samples, or one and the same force, are no data") {
-  Conditions conditions;
-  conditions.speed_m_per_s = 1e-3;
-  CHECK(missing_data(recorded({1.0, 2.0, 1.0}, 10.0, conditions))->code == "too_few_samples");
-  CHECK(missing_data(recorded(std::vector<double>(2000, 0.0), 1000.0, conditions))->code == "force_constant");
-  CHECK_FALSE(missing_data(chatter(0.0)));
 }
 
 }  // namespace slipfit

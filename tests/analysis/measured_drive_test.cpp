@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "checks.hpp"
 #include "slipfit/model/simulation.hpp"
 #include "slipfit/pipeline.hpp"
 
@@ -29,10 +30,6 @@ Recording with_drive(double compliance_m_per_N, double stated_m_per_s = kSpeed_m
   conditions.speed_m_per_s = stated_m_per_s;
   return Recording::create(std::move(trace.time_s), std::move(trace.force_N), conditions, {}, {}, std::move(drive_m))
       .value();
-}
-
-bool warns(const Analysis& analysis, const char* code) {
-  return std::ranges::any_of(analysis.warnings, [code](const Warning& warning) { return warning.code == code; });
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include "slipfit/core/recording.hpp"
 #include "slipfit/pipeline.hpp"
+#include "support/recordings.hpp"
 
 namespace slipfit {
 namespace {
@@ -34,9 +35,7 @@ Recording wave(const Wave& w) {
              w.phase_walk_rad * std::sqrt(kLine_Hz / kSampleRate_Hz) * normal(random);
     force.push_back(2.0 + 0.5 * w.swing_N * std::sin(phase) + w.noise_N * normal(random));
   }
-  Conditions conditions;
-  conditions.speed_m_per_s = 1e-3;
-  return Recording::create(std::move(time_s), std::move(force), conditions).value();
+  return test::recording_of(std::move(time_s), std::move(force), 1e-3);
 }
 
 /// Rest, a loading ramp of 1 s, sliding at 2 N until 11 s, release with a ring-down; the wave in all of it. `zero_N`:
@@ -50,8 +49,7 @@ Recording steady_run(double swing_N, double zero_N) {
     const double released = std::exp(-4.0 * (t - 11.0)) * std::cos(60.0 * (t - 11.0));
     force.push_back(steady.force()[i] - 2.0 + zero_N + (t < 11.0 ? sliding : released));
   }
-  return Recording::create({steady.time_s().begin(), steady.time_s().end()}, std::move(force), steady.conditions())
-      .value();
+  return test::with_force(steady, std::move(force));
 }
 
 }  // namespace
@@ -93,9 +91,7 @@ TEST_CASE("two levels of sliding are no rest and sliding") {
   const Recording steady = wave({.swing_N = 0.06});
   std::vector<double> force(steady.force().begin(), steady.force().end());
   for (std::size_t i = force.size() / 2; i < force.size(); ++i) force[i] += 1.0;
-  const Recording stepped =
-      Recording::create({steady.time_s().begin(), steady.time_s().end()}, std::move(force), steady.conditions())
-          .value();
+  const Recording stepped = test::with_force(steady, std::move(force));
   const Analysis analysis = analyze_and_fit(stepped);
   CHECK(analysis.sliding.begin_s == stepped.time_s().front());
   CHECK(analysis.sliding.end_s == stepped.time_s().back());

@@ -9,6 +9,7 @@
 #include "analysis/sweep_checks.hpp"
 #include "checks.hpp"
 #include "slipfit/pipeline.hpp"
+#include "support/recordings.hpp"
 
 namespace slipfit {
 namespace {
@@ -29,15 +30,11 @@ Recording saw_teeth_with_loss(std::size_t tooth) {
     time_s.push_back(static_cast<double>(time_s.size()) * kStep_s);
     force.push_back(2.0 + (phase < 0.95 ? phase / 0.95 : fall) + noise(random));
   }
-  Conditions conditions;
-  conditions.speed_m_per_s = 1e-3;
-  return Recording::create(std::move(time_s), std::move(force), conditions).value();
+  return test::recording_of(std::move(time_s), std::move(force), 1e-3);
 }
 
 SweepEntry entry_at(double speed_m_per_s, double step_s = 1.0) {
-  Conditions conditions;
-  conditions.speed_m_per_s = speed_m_per_s;
-  return {"run", Recording::create({0.0, step_s}, {0.0, 1.0}, conditions).value()};
+  return {"run", test::recording_of({0.0, step_s}, {0.0, 1.0}, speed_m_per_s)};
 }
 
 Analysis moving(MotionClass motion, double frequency_Hz = 0.0) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "slipfit/pipeline.hpp"
+#include "support/recordings.hpp"
 
 namespace slipfit {
 namespace {
@@ -32,9 +33,7 @@ Recording rises(const Shape& shape, double scatter, double top) {
     f = std::min(3.0 + f + 0.01 * normal(random), top);
     time_s.push_back(1e-3 * static_cast<double>(time_s.size()));
   }
-  Conditions conditions;
-  conditions.speed_m_per_s = 1e-3;
-  return Recording::create(std::move(time_s), std::move(force), conditions).value();
+  return test::recording_of(std::move(time_s), std::move(force), 1e-3);
 }
 
 constexpr double kOpen = std::numeric_limits<double>::infinity();
@@ -70,9 +69,7 @@ TEST_CASE("an oscillation whose frequency changes has no one frequency") {
     time_s.push_back(1e-3 * i);
     force.push_back(3.0 + std::sin(2.0 * std::numbers::pi * (20.0 * x + 20.0 * x * x)) + 1e-3 * std::sin(1e3 * x * x));
   }
-  Conditions conditions;
-  conditions.speed_m_per_s = 1e-3;
-  const Analysis analysis = analyze_and_fit(Recording::create(std::move(time_s), std::move(force), conditions).value());
+  const Analysis analysis = analyze_and_fit(test::recording_of(std::move(time_s), std::move(force), 1e-3));
   CHECK(analysis.motion != MotionClass::StickSlip);
   CHECK_FALSE(analysis.frequency.quoted.value);
 }

@@ -7,6 +7,7 @@
 #include "analysis/checks.hpp"
 #include "slipfit/core/recording.hpp"
 #include "slipfit/pipeline.hpp"
+#include "support/recordings.hpp"
 
 namespace slipfit {
 namespace {
@@ -57,9 +58,7 @@ Recording run_with_release(const Run& run) {
     const bool repeats = i % run.repeats != 0 && !force.empty();
     force.push_back(repeats ? force.back() : shown + noise(random));
   }
-  Conditions conditions;
-  conditions.speed_m_per_s = run.speed_m_per_s;
-  return Recording::create(std::move(time_s), std::move(force), conditions).value();
+  return test::recording_of(std::move(time_s), std::move(force), run.speed_m_per_s);
 }
 
 }  // namespace
@@ -101,9 +100,7 @@ TEST_CASE("noise alone has no transients", "[transients]") {
     time_s.push_back(i / kBumpRate_Hz);
     force.push_back(noise(random));
   }
-  Conditions conditions;
-  conditions.speed_m_per_s = 0.001;
-  const Analysis analysis = analyze(Recording::create(time_s, force, conditions).value());
+  const Analysis analysis = analyze(test::recording_of(time_s, force, 0.001));
   CHECK_FALSE(analysis.transients.breakaway_force.value);
   CHECK_FALSE(analysis.transients.ring_down_frequency_Hz.value);
 }
@@ -142,8 +139,7 @@ TEST_CASE("slips in time with the stated drive are clocked", "[regularity]") {
   const auto with_drive = [&](double period_s) {
     Conditions conditions = free.conditions();
     conditions.drive_period_s = period_s;
-    const auto copy = [](std::span<const double> values) { return std::vector<double>(values.begin(), values.end()); };
-    return analyze(Recording::create(copy(free.time_s()), copy(free.force()), conditions).value());
+    return analyze(test::with_conditions(free, conditions));
   };
   const double period_s = 1.0 / *own.frequency.quoted.value;
   CHECK(with_drive(period_s).cycles.regularity == Regularity::Clocked);
@@ -151,26 +147,6 @@ TEST_CASE("slips in time with the stated drive are clocked", "[regularity]") {
   CHECK(with_drive(2.0 * period_s).cycles.regularity == Regularity::Clocked);
   CHECK(with_drive(1.03 * period_s).cycles.regularity == Regularity::Regular);
   CHECK(warns(with_drive(period_s), "clocked"));
-}
-
-TEST_CASE("a sum of sines with noise is no stick-slip", "[classify]") {
-  const auto [second, noise_N] = GENERATE(table<double, double>({{0.0, 0.0}, {0.0, 0.03}, {0.3, 0.03}}));
-  std::mt19937_64 random(11);
-  std::normal_distribution<double> noise(0.0, 1.0);
-  std::vector<double> time_s, force;
-  for (int i = 0; i < 8000; ++i) {
-    const double t = i / kBumpRate_Hz;
-    const double phase = 2.0 * std::numbers::pi * 21.0 * t;
-    time_s.push_back(t);
-    force.push_back(5.0 + std::sin(phase) + second * std::sin(2.0 * phase) + noise_N * noise(random));
-  }
-  Conditions conditions;
-  conditions.speed_m_per_s = 0.001;
-  const Analysis analysis = analyze_and_fit(Recording::create(time_s, force, conditions).value());
-  INFO("second harmonic " << second << ", noise " << noise_N << ": " << analysis.motion_reason);
-  CHECK(analysis.motion != MotionClass::StickSlip);
-  if (!analysis.fit) return;
-  for (const Parameter& parameter : analysis.fit->parameters) CHECK(parameter.status != ParameterStatus::Identified);
 }
 
 }  // namespace slipfit
