@@ -9,7 +9,6 @@
 
 #include "core/thresholds.hpp"
 #include "fit/cycle/start.hpp"
-#include "fit/level/level_terms.hpp"
 #include "fit/problem/block_fit.hpp"
 #include "fit/problem/normals.hpp"
 
@@ -51,10 +50,6 @@ Scales example_scales(ForceView view, const Filter& filter = {}) {
   scales.sensor_time_unit_s = 0.02;
   return scales;
 }
-
-}  // namespace
-
-namespace {
 
 /// The parameters in a vector that has the order of the Jacobian's columns.
 struct Unpacked {
@@ -192,81 +187,35 @@ LevelModel rising() {
 
 }  // namespace
 
-TEST_CASE("residual derivatives of Coulomb friction agree with central differences in every view and level model") {
-  const ForceView view = GENERATE(ForceView::Spring, ForceView::Transmitted);
-  const Filter filter = GENERATE(Filter{}, Filter{0.02, 1}, Filter{0.02, 4});
-  const Average average = GENERATE(Average::None, Average::Stated, Average::Free, Average::BesideFreeLag);
-  for (const LevelModel& level : {kPolynomial, kPerCycle, rising()}) {
-    Scales scales = averaged_by(average, example_scales(view, filter));
-    check_derivatives(scales, level);
-    scales.population = example_population();
-    check_derivatives(scales, level);
-    scales.population->log_speed = 0.7;
-    check_derivatives(scales, level);
-  }
-}
-
-TEST_CASE("residual derivatives of friction that depends on the speed agree with central differences") {
-  const ForceView view = GENERATE(ForceView::Spring, ForceView::Transmitted);
-  const FrictionLaw law = GENERATE(FrictionLaw::Exponential, FrictionLaw::Hyperbolic, FrictionLaw::Logarithmic);
-  const Filter filter = GENERATE(Filter{}, Filter{0.02, 1}, Filter{0.02, 4});
-  const Average average = GENERATE(Average::None, Average::Stated, Average::Free, Average::BesideFreeLag);
-  for (const LevelModel& level : {kPolynomial, kPerCycle, rising()}) {
-    Scales scales = averaged_by(average, example_scales(view, filter));
-    scales.law = law;
-    scales.population = example_population();
-    // Slips are integrated to 1e-9 of the motion, and their steps change with the parameters.
-    check_derivatives(scales, level, {1e-3, 1e-4, 0.9});
-  }
-}
-
-TEST_CASE("residual derivatives of friction that weakens over a slip distance agree with central differences") {
+TEST_CASE("residual derivatives agree with differences for every law, view, sensor and level model") {
+  struct Law {
+    FrictionLaw friction = FrictionLaw::Coulomb;
+    bool relaxes = false;  ///< the spring
+  };
+  const Law law = GENERATE(Law{}, Law{FrictionLaw::Coulomb, true}, Law{FrictionLaw::Exponential},
+                           Law{FrictionLaw::Hyperbolic}, Law{FrictionLaw::Logarithmic}, Law{FrictionLaw::Weakening});
   const ForceView view = GENERATE(ForceView::Spring, ForceView::Transmitted);
   const Filter filter = GENERATE(Filter{}, Filter{0.02, 1}, Filter{0.02, 4});
   const Average average = GENERATE(Average::None, Average::Stated, Average::Free, Average::BesideFreeLag);
   Scales scales = averaged_by(average, example_scales(view, filter));
-  scales.law = FrictionLaw::Weakening;
+  scales.law = law.friction;
   scales.slip_distance_m = scales.force / 60.0;
-  for (const LevelModel& level : {kPolynomial, kPerCycle, rising()}) check_derivatives(scales, level);
-}
-
-TEST_CASE("residual derivatives of a spring that relaxes agree with central differences") {
-  const ForceView view = GENERATE(ForceView::Spring, ForceView::Transmitted);
-  const Filter filter = GENERATE(Filter{}, Filter{0.02, 1}, Filter{0.02, 4});
-  const Average average = GENERATE(Average::None, Average::Stated, Average::Free, Average::BesideFreeLag);
-  Scales scales = averaged_by(average, example_scales(view, filter));
-  scales.relaxing = RelaxingCycles{3.3, 12.0, 10.0};
+  if (law.relaxes) scales.relaxing = RelaxingCycles{3.3, 12.0, 10.0};
   for (const LevelModel& level : {kPolynomial, kPerCycle, rising()}) {
+    if (depends_on_speed(law.friction)) {
+      scales.population = example_population();
+      // Slips are integrated to 1e-9 of the motion, and their steps change with the parameters.
+      check_derivatives(scales, level, {1e-3, 1e-4, 0.9});
+      continue;
+    }
     check_derivatives(scales, level);
+    if (law.friction == FrictionLaw::Weakening) continue;
     Scales in_sweep = scales;
     in_sweep.population = example_population();
+    check_derivatives(in_sweep, level);
     in_sweep.population->log_speed = 0.7;
     check_derivatives(in_sweep, level);
   }
-}
-
-TEST_CASE("friction that depends on the speed with slope 0 gives the residuals of Coulomb friction") {
-  Scales coulomb = example_scales(ForceView::Spring);
-  coulomb.sensor_average_s = GENERATE(0.0, 0.015);
-  coulomb.population = example_population();
-  Scales dependent = coulomb;
-  dependent.law = FrictionLaw::Exponential;
-  const CycleSet set = set_of(example_cycle(), 0.05, kPolynomial, coulomb);
-  Coordinates shared = oscillator(std::log(60.0), std::log(9.0), 0.1);
-  shared(kFrictionRate) = -1.0;
-  shared(kDifference) = 0.9;
-  const std::vector<double> level{0.1, 0.05, -0.02};
-  const std::vector<double> local{0.1, 0.8};
-  const CycleValues values{&shared, level.data(), level.data() + 1, local.data()};
-  const auto residuals_of = [&](const Scales& scales) {
-    const Columns columns(scales, kPolynomial);
-    const CycleModel model(set, 0, scales, columns);
-    Eigen::VectorXd residuals(static_cast<Eigen::Index>(model.residuals()));
-    REQUIRE(model.evaluate(values, residuals.data(), nullptr));
-    return residuals;
-  };
-  // The integrated slip is good to 1e-7 of the motion; residuals are in units of the noise, a fiftieth of it.
-  CHECK((residuals_of(coulomb) - residuals_of(dependent)).cwiseAbs().maxCoeff() < 1e-5);
 }
 
 TEST_CASE("the residual of steady sliding and its derivatives") {
@@ -326,53 +275,6 @@ TEST_CASE("samples on an even clock give the same rows as on one with a sample m
   }
 }
 
-TEST_CASE("a clock is even to what its written times are rounded by, not where a slip would show the difference") {
-  const Scales scales = example_scales(ForceView::Spring);
-  const auto jittered = [](double size_s) {
-    CycleData cycle = example_cycle();
-    for (std::size_t i = 0; i < cycle.time_s.size(); ++i) cycle.time_s[i] += i % 3 == 1 ? size_s : 0.0;
-    return cycle;
-  };
-  // 1 % of the noise on the steepest part of a slip of half drop 1.3 and half period 0.3 s: 37 us.
-  const CycleSet written = set_of(jittered(3e-5), 0.05, kConstant, scales);
-  CHECK(written.even_step_s(0) == Approx(0.011).epsilon(1e-4));
-  CHECK(set_of(jittered(5e-5), 0.05, kConstant, scales).even_step_s(0) == 0.0);
-
-  const std::vector<double> x{std::log(60.0), std::log(9.0), 0.08, 0.1, 0.1, 0.8};
-  const auto residuals_of = [&](const CycleSet& set) {
-    const Columns columns(scales, kConstant);
-    const CycleModel model(set, 0, scales, columns);
-    std::vector<double> residuals(model.residuals());
-    REQUIRE(model.evaluate(Unpacked(columns, x).values, residuals.data(), nullptr));
-    return residuals;
-  };
-  const std::vector<double> as_written = residuals_of(written);
-  const std::vector<double> even = residuals_of(set_of(example_cycle(), 0.05, kConstant, scales));
-  for (std::size_t i = 0; i < even.size(); ++i) CHECK(std::abs(as_written[i] - even[i]) < 0.01);
-}
-
-TEST_CASE("no set of cycles has fewer cycles than a fit needs") {
-  const Scales scales = example_scales(ForceView::Spring);
-  for (std::size_t count = 0; count <= thresholds::kFewestSlips; ++count) {
-    CAPTURE(count);
-    const std::vector cycles(count, example_cycle());
-    const bool can_be_fitted = count == thresholds::kFewestSlips;
-    CHECK(CycleSet::create(cycles, std::vector(count, 0.0), kPolynomial, scales).has_value() == can_be_fitted);
-    CHECK(BlockFit::create(cycles, std::vector(count, 0.0), scales, kPolynomial).has_value() == can_be_fitted);
-  }
-}
-
-TEST_CASE("a cycle without friction drop is outside the model, not a number") {
-  const Scales scales = example_scales(ForceView::Spring);
-  const CycleSet set = set_of(example_cycle(), 0.0, kConstant, scales);
-  const Columns columns(scales, kConstant);
-  const CycleModel model(set, 0, scales, columns);
-  const std::vector<double> x{4.0, 2.0, 0.05, 0.0, 0.0, -0.5};
-  std::vector<double> residuals(model.residuals(), 7.0);
-  CHECK_FALSE(model.evaluate(Unpacked(columns, x).values, residuals.data(), nullptr));
-  CHECK(residuals.front() == 7.0);
-}
-
 TEST_CASE("ramp residual derivatives agree with central differences") {
   CycleData first = example_cycle();
   first.continuous_with_next = true;
@@ -396,28 +298,4 @@ TEST_CASE("ramp residual derivatives agree with central differences") {
     INFO("column " << column);
     CHECK(derivative == Approx((value(above).value - value(below).value) / (2.0 * h)).epsilon(1e-6));
   }
-}
-
-TEST_CASE("Legendre values and slopes are those of the books") {
-  std::vector<double> values(4);
-  std::vector<double> slopes(4);
-  legendre(0.3, 4, values.data(), slopes.data());
-  CHECK(values[2] == Approx(0.5 * (3.0 * 0.09 - 1.0)));
-  CHECK(slopes[2] == Approx(3.0 * 0.3));
-  CHECK(slopes[3] == Approx(0.5 * (15.0 * 0.09 - 3.0)));
-}
-
-TEST_CASE("a drift polynomial is paid for by drift, not by scatter") {
-  std::mt19937_64 random(3);
-  std::normal_distribution<double> noise(0.0, 1.0);
-  std::vector<double> time_s;
-  std::vector<double> flat;
-  std::vector<double> drifting;
-  for (int i = 0; i < 60; ++i) {
-    time_s.push_back(i);
-    flat.push_back(noise(random));
-    drifting.push_back(noise(random) + 0.01 * (i - 30) * (i - 30));
-  }
-  CHECK(choose_level_terms(time_s, flat) == 1);
-  CHECK(choose_level_terms(time_s, drifting) == 3);
 }

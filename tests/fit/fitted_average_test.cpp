@@ -59,25 +59,6 @@ TEST_CASE("slips seen through an average that nobody stated: its time and the ma
   CHECK(has_warning(analysis, "samples_averaged"));
 }
 
-TEST_CASE("an average that lasts longer than the slip is found, or said to be one of two") {
-  Scene s = printed_plastic();
-  s.seed = GENERATE(range<std::uint64_t>(1, 5));
-  const Recording recording =
-      averaged(s, 85);  // w_n W = 5.3: without it slips of half the frequency fit nearly as well
-  const Analysis analysis = analyze_and_fit(recording);
-  REQUIRE(analysis.fit);
-  const Parameter& average = parameter(analysis, "sensor_average_s");
-  REQUIRE(average.estimate.value);
-  CHECK(*average.estimate.value == Approx(85.0 * recording.sample_interval_s()).epsilon(0.05));
-  const Estimate& omega = parameter(analysis, "natural_frequency_rad_per_s").estimate;
-  if (omega.ci95) {
-    CHECK(omega.ci95->low < s.omega);
-    CHECK(omega.ci95->high > s.omega);
-  } else {
-    CHECK(!omega.note.empty());
-  }
-}
-
 TEST_CASE("samples of an instant get no average") {
   Scene s = printed_plastic();
   s.noise = 0.01;

@@ -193,36 +193,6 @@ TEST_CASE("a sweep gives back the parameters of a spring that relaxes behind eve
   }
 }
 
-TEST_CASE("sensors whose times vanish show the force as it is, whatever the law") {
-  const FrictionLaw law = GENERATE(FrictionLaw::Coulomb, FrictionLaw::Weakening, FrictionLaw::Exponential,
-                                   FrictionLaw::Hyperbolic, FrictionLaw::Logarithmic);
-  const ForceView view = GENERATE(ForceView::Spring, ForceView::Transmitted);
-  const Instrument small = GENERATE(Instrument{1e-6, 0.0}, Instrument{0.0, 1e-4}, Instrument{1e-6, 1e-4});
-  CAPTURE(name_of(law), view == ForceView::Spring, small.lag_s, small.average_s);
-  const Coordinates values = true_values(law);
-  const BlockFit ideal = exact(scales_of(law, view, {}, 0.01, true), values);
-  const BlockFit sensed = exact(scales_of(law, view, small, 0.01, true), values);
-  for (std::size_t i = 0; i < ideal.data(0).force.size(); ++i) {
-    CAPTURE(i);
-    // T times the steepest slope of 10 N/s, and W^2 / 24 of the bend at a kink of at most 20 N/s: W / 8 of that.
-    CHECK(sensed.data(0).force[i] == Approx(ideal.data(0).force[i]).margin(10.0 * small.lag_s + 2.5 * small.average_s));
-  }
-}
-
-TEST_CASE("friction that weakens over a vanishing distance is Coulomb friction behind every sensor") {
-  const ForceView view = GENERATE(ForceView::Spring, ForceView::Transmitted);
-  const Instrument instrument = any_instrument();
-  Coordinates values = true_values(FrictionLaw::Coulomb);
-  const BlockFit coulomb = exact(scales_of(FrictionLaw::Coulomb, view, instrument, 0.01, false), values);
-  values(kSlipDistance) = std::sqrt(1e-7);
-  const BlockFit weakening = exact(scales_of(FrictionLaw::Weakening, view, instrument, 0.01, false), values);
-  for (std::size_t i = 0; i < coulomb.data(0).force.size(); ++i) {
-    CAPTURE(i, instrument.lag_s, instrument.average_s, instrument.order);
-    // The slip begins later by (6 D)^(1/3), in which the force rises by k V / w_n at most: D is 1e-7 of 15.
-    CHECK(weakening.data(0).force[i] == Approx(coulomb.data(0).force[i]).margin(5e-3));
-  }
-}
-
 TEST_CASE("a solve that comes to the end of a parameter's range goes on along it") {
   const FrictionLaw law = GENERATE(FrictionLaw::Coulomb, FrictionLaw::Weakening);
   Coordinates truth = true_values(law);

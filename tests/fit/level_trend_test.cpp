@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "scene.hpp"
+#include "support/holds.hpp"
+#include "support/recordings.hpp"
 
 namespace slipfit {
 namespace {
@@ -51,14 +53,7 @@ Recording slide(const CourseOf& friction, const CourseOf& sensor, std::vector<do
 Recording with(const Recording& recording, LevelReading drift, std::vector<double> load_N = {}) {
   Conditions conditions = recording.conditions();
   conditions.drift = drift;
-  return Recording::create({recording.time_s().begin(), recording.time_s().end()},
-                           {recording.force().begin(), recording.force().end()}, conditions, {}, std::move(load_N))
-      .value();
-}
-
-bool holds(const Estimate& estimate, double truth) {
-  REQUIRE(estimate.ci95);
-  return estimate.ci95->low <= truth && truth <= estimate.ci95->high;
+  return test::with_conditions(recording, conditions, std::move(load_N));
 }
 
 const CourseOf kConstant = [](double) { return 1.0; };
@@ -74,15 +69,15 @@ TEST_CASE("the interval of k includes both readings of a trend of the level") {
   const LevelTrend& trend = open.fit->level_trend;
   CHECK(trend.reading == LevelReading::Open);
   CHECK(*trend.rate_per_s.value == Approx(0.8 * 1.4 / 8.0).epsilon(0.05));
-  CHECK(holds(open.fit->stiffness(), kTrueStiffness));
+  CHECK(test::holds(open.fit->stiffness(), kTrueStiffness));
   CHECK(has_warning(open, "level_trend"));
   CHECK(parameter(open, "static_friction_N").status != ParameterStatus::Identified);
 
   const Analysis friction = analyze_and_fit(with(recording, LevelReading::Friction));
-  CHECK(holds(friction.fit->stiffness(), kTrueStiffness));
+  CHECK(test::holds(friction.fit->stiffness(), kTrueStiffness));
   CHECK(parameter(friction, "stiffness_N_per_m").status == ParameterStatus::Identified);
   const Analysis sensor = analyze_and_fit(with(recording, LevelReading::Sensor));
-  CHECK_FALSE(holds(sensor.fit->stiffness(), kTrueStiffness));
+  CHECK_FALSE(test::holds(sensor.fit->stiffness(), kTrueStiffness));
   CHECK(*friction.fit->stiffness().value - *sensor.fit->stiffness().value ==
         Approx(*trend.rate_per_s.value / kSpeed).epsilon(0.02));
 }
@@ -91,11 +86,11 @@ TEST_CASE("a drift of the sensor is in the interval of k, and its start in that 
   const Recording recording = slide(kConstant, [](double share) { return 1.6 * share; });
   const Analysis open = analyze_and_fit(recording);
   REQUIRE(open.fit);
-  CHECK(holds(open.fit->stiffness(), kTrueStiffness));
-  CHECK(holds(parameter(open, "static_friction_N").estimate, 2.0));
+  CHECK(test::holds(open.fit->stiffness(), kTrueStiffness));
+  CHECK(test::holds(parameter(open, "static_friction_N").estimate, 2.0));
   CHECK(parameter(open, "static_friction_N").status != ParameterStatus::Identified);
   const Analysis sensor = analyze_and_fit(with(recording, LevelReading::Sensor));
-  CHECK(holds(sensor.fit->stiffness(), kTrueStiffness));
+  CHECK(test::holds(sensor.fit->stiffness(), kTrueStiffness));
   CHECK(sensor.fit->stiffness().ci95->high < open.fit->stiffness().ci95->high);
 }
 
@@ -105,13 +100,13 @@ TEST_CASE("sticks that follow a bent level, or do not, decide the reading") {
     const Analysis run_in = analyze_and_fit(slide([&](double s) { return 1.0 + 0.3 * decay(s); }, kNothing));
     REQUIRE(run_in.fit);
     CHECK(run_in.fit->level_trend.reading == LevelReading::Friction);
-    CHECK(holds(run_in.fit->stiffness(), kTrueStiffness));
+    CHECK(test::holds(run_in.fit->stiffness(), kTrueStiffness));
   }
   SECTION("a sensor that settles") {
     const Analysis settles = analyze_and_fit(slide(kConstant, [&](double s) { return 1.2 * decay(s); }));
     REQUIRE(settles.fit);
     CHECK(settles.fit->level_trend.reading == LevelReading::Sensor);
-    CHECK(holds(settles.fit->stiffness(), kTrueStiffness));
+    CHECK(test::holds(settles.fit->stiffness(), kTrueStiffness));
   }
 }
 
@@ -121,7 +116,7 @@ TEST_CASE("a load that was measured decides the reading where it explains the tr
   const Analysis by_load = analyze_and_fit(with(recording, LevelReading::Open, load_N));
   REQUIRE(by_load.fit);
   CHECK(by_load.fit->level_trend.reading == LevelReading::Friction);
-  CHECK(holds(by_load.fit->stiffness(), kTrueStiffness));
+  CHECK(test::holds(by_load.fit->stiffness(), kTrueStiffness));
   CHECK(by_load.fit->stiffness().ci95->low > 0.98 * kTrueStiffness);
   const Analysis steady =
       analyze_and_fit(with(recording, LevelReading::Open, std::vector<double>(recording.size(), 5.0)));

@@ -9,6 +9,7 @@
 #include "fit/cycle/cycle_data.hpp"
 #include "fit/cycle/start.hpp"
 #include "scene.hpp"
+#include "support/recordings.hpp"
 
 using namespace slipfit;
 
@@ -19,35 +20,6 @@ Scene scene_of_many_cycles() {
 }
 
 }  // namespace
-
-TEST_CASE("some 8000 samples in falls are offered to the fit, in runs over the whole recording") {
-  struct Kept {
-    double samples_in_fall;
-    std::size_t cycles;
-  };
-  for (const Kept kept : {Kept{0.5, 512}, Kept{16.0, 512}, Kept{32.0, 256}, Kept{64.0, 128}, Kept{1e4, 128}}) {
-    INFO(kept.samples_in_fall);
-    for (std::size_t slip = 0; slip < kept.cycles; ++slip) {
-      REQUIRE(fit::OfferedSlips(3, kept.samples_in_fall).has(slip));
-      REQUIRE(fit::OfferedSlips(kept.cycles, kept.samples_in_fall).has(slip));
-    }
-    for (const std::size_t slips : {kept.cycles + 1, 2500UL, 100003UL}) {
-      const fit::OfferedSlips offers(slips, kept.samples_in_fall);
-      std::size_t offered = 0, longest_aside = 0, aside = 0;
-      for (std::size_t slip = 0; slip < slips; ++slip) {
-        if (offers.has(slip)) ++offered;
-        aside = offers.has(slip) ? 0 : aside + 1;
-        longest_aside = std::max(longest_aside, aside);
-      }
-      INFO(slips);
-      CHECK(offered <= kept.cycles);
-      CHECK(offered > kept.cycles - 8);
-      CHECK(longest_aside <= 2 * (8 * slips / kept.cycles + 8));  // no part of the recording goes unseen
-      CHECK(offers.has(0));
-      CHECK(offers.has(slips - 1));
-    }
-  }
-}
 
 TEST_CASE("a part of many cycles gives the parameters, and the warning says so") {
   const Scene s = scene_of_many_cycles();
@@ -96,9 +68,7 @@ TEST_CASE("hum of few waves hides more slips than it shows, and they are fitted 
     const double saw = phase < kRise ? phase / kRise : (1.0 - phase) / (1.0 - kRise);
     force.push_back(2.0 + saw + 1.5 * std::sin(2.0 * std::numbers::pi * 50.0 * time_s.back() + 1.0));
   }
-  Conditions conditions;
-  conditions.speed_m_per_s = 0.01;
-  const Recording recording = Recording::create(time_s, force, conditions).value();
+  const Recording recording = test::recording_of(time_s, force, 0.01);
   REQUIRE(find_slips(recording, assess_quality(recording)).slips.size() < 66);
   const Analysis analysis = analyze_and_fit(recording);
   CHECK(analysis.cycles.count == 111);
@@ -115,39 +85,10 @@ TEST_CASE("lines that keep the phase of the slips are of the cycles' shape and n
     time_s.push_back(1e-4 * i);
     force.push_back(3.0 + static_cast<double>(i % kPeriod) / kPeriod);
   }
-  Conditions conditions;
-  conditions.speed_m_per_s = 0.01;
-  const Analysis analysis = analyze_and_fit(Recording::create(time_s, force, conditions).value());
+  const Analysis analysis = analyze_and_fit(test::recording_of(time_s, force, 0.01));
   REQUIRE(analysis.motion == MotionClass::StickSlip);
   CHECK(!has_warning(analysis, "hum_fitted"));
   CHECK(std::abs(*parameter(analysis, "stiffness_N_per_m").estimate.value - 2500.0) < 1.0);
-}
-
-TEST_CASE("the fit beneath hum begins with the slope of the sticks, not with that of the hum beside them") {
-  // Ramps at 24.9 Hz: in 40 of them hum of 50 Hz keeps nearly its phase, and falls in the middle of the ramps in some.
-  constexpr int kPeriod = 402;
-  constexpr int kFall = 36;
-  constexpr double kSlope = 1.0 / (1e-4 * (kPeriod - kFall));  // N/s
-  for (const double phase_rad : {0.0, 0.5, 1.0, 1.5, 2.0, 2.5, 3.0}) {
-    std::vector<double> time_s, force;
-    for (int i = 0; i < 40 * kPeriod; ++i) {
-      const int at = i % kPeriod;
-      const double share = at < kPeriod - kFall ? at : static_cast<double>(kPeriod - kFall) / kFall * (kPeriod - at);
-      time_s.push_back(1e-4 * i);
-      force.push_back(3.0 + share / (kPeriod - kFall) +
-                      0.3 * std::sin(2.0 * std::numbers::pi * 50.0 * time_s.back() + phase_rad));
-    }
-    Conditions conditions;
-    conditions.speed_m_per_s = 0.01;
-    const Recording recording = Recording::create(time_s, force, conditions).value();
-    const Quality quality = assess_quality(recording);
-    const auto beneath = find_slips_beneath_hum(recording, quality, find_slips(recording, quality));
-    INFO("phase " << phase_rad << " rad");
-    REQUIRE(beneath);
-    // The line of 50 Hz takes the second harmonic of the slips with it, of amplitude 1 / (2 pi) of a fall: at most
-    // twice that between trough and peak. The slope of the hum itself is 2 pi * 50 * 0.3 = 94 N/s, of either sign.
-    CHECK(fit::stiffness_of(recording, *beneath) * 0.01 == Approx(kSlope).epsilon(1.0 / std::numbers::pi));
-  }
 }
 
 TEST_CASE("hum beside a part of the cycles is one line, also where exactly regular cycles make images of it") {
@@ -182,8 +123,7 @@ TEST_CASE("all lines of hum are found, also those that its strongest hides at fi
     force[i] += 0.1 * std::sin(2.0 * std::numbers::pi * turns) + 0.02 * std::sin(6.0 * std::numbers::pi * turns) +
                 0.005 * std::sin(10.0 * std::numbers::pi * turns);
   }
-  const std::vector<double> time_s(without.time_s().begin(), without.time_s().end());
-  const Analysis analysis = analyze_and_fit(Recording::create(time_s, force, without.conditions()).value());
+  const Analysis analysis = analyze_and_fit(test::with_force(without, std::move(force)));
   REQUIRE(analysis.fit);
   const auto warning = std::find_if(analysis.warnings.begin(), analysis.warnings.end(),
                                     [](const Warning& w) { return w.code == "hum_fitted"; });

@@ -9,24 +9,6 @@
 using slipfit::fit::moderated_variances;
 using slipfit::fit::SampleVariance;
 
-TEST_CASE("variances of small samples that differ by chance alone are drawn together") {
-  // The first is what three values have that happen to be alike; its chance is 1 in 20.
-  const std::vector<double> moderated = moderated_variances({{0.05, 3}, {1.2, 4}, {0.8, 4}, {1.5, 3}, {1.0, 5}});
-  CHECK(moderated[0] > 0.4);
-  for (std::size_t i = 1; i < moderated.size(); ++i) CHECK(moderated[i] == Approx(0.9).epsilon(0.25));
-}
-
-TEST_CASE("variances of large samples that differ stay as they are") {
-  const std::vector<double> moderated = moderated_variances({{1.0, 400}, {9.0, 400}, {3.0, 400}});
-  CHECK(moderated[0] == Approx(1.0).epsilon(0.03));
-  CHECK(moderated[1] == Approx(9.0).epsilon(0.03));
-}
-
-TEST_CASE("one sample, or none, has nothing in common with others") {
-  CHECK(moderated_variances({{2.0, 3}}) == std::vector<double>{2.0});
-  CHECK(moderated_variances({}).empty());
-}
-
 TEST_CASE("a mean weighted by moderated variances of three values each scatters as that of equal weights") {
   std::mt19937_64 random(7);
   std::normal_distribution<double> normal;

@@ -13,6 +13,7 @@
 #include "model/slip.hpp"
 #include "slipfit/predict/prediction.hpp"
 #include "slipfit/sweep.hpp"
+#include "support/recordings.hpp"
 
 namespace slipfit {
 namespace {
@@ -69,10 +70,9 @@ Scene bent_sticks() {
 
 /// The same with forces to the nearest multiple of `step_N`.
 Recording rounded(const Recording& exact, double step_N) {
-  std::vector<double> time_s(exact.time_s().begin(), exact.time_s().end());
   std::vector<double> force;
   for (const double force_N : exact.force()) force.push_back(step_N * std::round(force_N / step_N));
-  return Recording::create(std::move(time_s), std::move(force), exact.conditions()).value();
+  return test::with_force(exact, std::move(force));
 }
 
 fit::RiseAfterSlip two_slips() {
@@ -129,28 +129,6 @@ TEST_CASE("the rise after a slip is averaged exactly and knows its derivatives")
   CHECK(instant(1.2) == Approx(0.0).margin(1e-12));
   CHECK(instant(1.215) == 0.0);
   CHECK(instant(1.23 + 0.02) == Approx(1.0 - std::exp(-1.0)));
-}
-
-TEST_CASE("a rise after slips is found through an average that nobody stated") {
-  Scene s = bent_sticks();
-  s.noise = 0.0;
-  s.seed = GENERATE(range<std::uint64_t>(1, 5));
-  const double rise_N = kRise * (s.static_N - s.kinetic_N);
-  const Recording exact = reloading_recording(s, rise_N);
-  const std::size_t width = 8;
-  const double noise_N = 0.005 * (s.static_N - s.kinetic_N);
-  const Analysis analysis = analyze_and_fit(moving_average(exact, width, noise_N, s.seed));
-  REQUIRE(analysis.fit);
-  // With the slips of the fit without an average the rise would be off by 5 to 30 of its standard errors.
-  for (const auto& [name, truth] : {std::pair{"reload_force_N", rise_N}, std::pair{"reload_length_m", kLength_m},
-                                    std::pair{"stiffness_N_per_m", s.stiffness}}) {
-    INFO(name);
-    const Estimate& estimate = parameter(analysis, name).estimate;
-    REQUIRE(estimate.standard_error);
-    CHECK(std::abs(*estimate.value - truth) < 4.0 * *estimate.standard_error + 0.01 * truth);
-  }
-  CHECK(*parameter(analysis, "sensor_average_s").estimate.value ==
-        Approx(static_cast<double>(width) * exact.sample_interval_s()).epsilon(0.1));
 }
 
 TEST_CASE("a rise after slips is found with the other parameters") {
@@ -250,15 +228,6 @@ TEST_CASE("the mass beside a rise includes the contact that relaxes with time") 
   CHECK(mass.ci95->high > secant / (omega * omega));
   CHECK(*mass.value > 1.01 * k / (omega * omega));
   CHECK(parameter(analysis, "mass_kg").status == ParameterStatus::Weak);
-}
-
-TEST_CASE("straight sticks get no rise") {
-  Scene s = bent_sticks();
-  s.seed = GENERATE(range<std::uint64_t>(1, 9));
-  CAPTURE(s.seed);
-  const Analysis analysis = analyze_and_fit(record(s));
-  REQUIRE(analysis.fit);
-  CHECK(analysis.fit->find(ParameterId::ReloadLength) == nullptr);
 }
 
 TEST_CASE("rounding makes no rise and hides none that is larger than its steps") {

@@ -13,6 +13,8 @@
 #include "scene.hpp"
 #include "slipfit/signal/cycles.hpp"
 #include "slipfit/signal/quality.hpp"
+#include "support/holds.hpp"
+#include "support/recordings.hpp"
 #include "sweep_recordings.hpp"
 
 using namespace slipfit;
@@ -44,10 +46,6 @@ double width(const Parameter& parameter) {
   return parameter.estimate.ci95->high - parameter.estimate.ci95->low;
 }
 
-bool holds_truth(const Parameter& parameter, double truth) {
-  return parameter.estimate.ci95->low <= truth && truth <= parameter.estimate.ci95->high;
-}
-
 /// Slips that averaging hides, or few and noisy ones.
 Recording averaged(const Recording& recording, std::size_t samples) {
   return samples > 1 ? moving_average(recording, samples, 0.003, 5) : recording;
@@ -56,11 +54,6 @@ Recording averaged(const Recording& recording, std::size_t samples) {
 bool uses_ring_down(const std::vector<std::string>& conditions) {
   return std::any_of(conditions.begin(), conditions.end(),
                      [](const std::string& one) { return one.find("ring-down") != std::string::npos; });
-}
-
-bool tells_of_difference(const FitResult& result) {
-  return std::any_of(result.warnings.begin(), result.warnings.end(),
-                     [](const Warning& one) { return one.code == "ring_down_differs"; });
 }
 
 }  // namespace
@@ -80,10 +73,10 @@ TEST_CASE("a ring-down that is the motion of the slips tells w_n and zeta with t
   CHECK(width(parameter(joined, "damping_ratio")) < 0.5 * width(parameter(alone, "damping_ratio")));
   CHECK(width(parameter(joined, "natural_frequency_rad_per_s")) <
         width(parameter(alone, "natural_frequency_rad_per_s")));
-  CHECK(holds_truth(parameter(joined, "damping_ratio"), scene.zeta));
-  CHECK(holds_truth(parameter(joined, "natural_frequency_rad_per_s"), scene.omega));
-  CHECK(holds_truth(parameter(joined, "friction_difference_N"), scene.static_N - scene.kinetic_N));
-  CHECK(holds_truth(parameter(joined, "stiffness_N_per_m"), scene.stiffness));
+  CHECK(test::holds(parameter(joined, "damping_ratio").estimate, scene.zeta));
+  CHECK(test::holds(parameter(joined, "natural_frequency_rad_per_s").estimate, scene.omega));
+  CHECK(test::holds(parameter(joined, "friction_difference_N").estimate, scene.static_N - scene.kinetic_N));
+  CHECK(test::holds(parameter(joined, "stiffness_N_per_m").estimate, scene.stiffness));
 }
 
 TEST_CASE("a ring-down of another mode is told and changes nothing", "[ring_down]") {
@@ -97,7 +90,7 @@ TEST_CASE("a ring-down of another mode is told and changes nothing", "[ring_down
   CHECK_FALSE(has_warning(alone, "ring_down_differs"));
   CHECK(*parameter(joined, "damping_ratio").estimate.value ==
         Approx(*parameter(alone, "damping_ratio").estimate.value).margin(0.01));
-  CHECK(holds_truth(parameter(joined, "natural_frequency_rad_per_s"), scene.omega));
+  CHECK(test::holds(parameter(joined, "natural_frequency_rad_per_s").estimate, scene.omega));
 }
 
 TEST_CASE("a ring-down of one recording is data of a whole sweep", "[ring_down]") {
@@ -130,30 +123,10 @@ TEST_CASE("a ring-down of one recording is data of a whole sweep", "[ring_down]"
   CHECK_FALSE(differs->ring_down_used);
   CHECK(width(*joined->result.find(ParameterId::DampingRatio)) <
         0.5 * width(*alone->result.find(ParameterId::DampingRatio)));
-  CHECK(holds_truth(*joined->result.find(ParameterId::DampingRatio), scene.damping_ratio));
-  CHECK(holds_truth(*joined->result.find(ParameterId::NaturalFrequency), scene.natural_frequency_rad_per_s));
-  CHECK(holds_truth(*joined->result.find(ParameterId::Stiffness), scene.stiffness_N_per_m));
-  CHECK(tells_of_difference(differs->result));
-  CHECK_FALSE(tells_of_difference(joined->result));
+  CHECK(test::holds(joined->result.find(ParameterId::DampingRatio)->estimate, scene.damping_ratio));
+  CHECK(test::holds(joined->result.find(ParameterId::NaturalFrequency)->estimate, scene.natural_frequency_rad_per_s));
+  CHECK(test::holds(joined->result.find(ParameterId::Stiffness)->estimate, scene.stiffness_N_per_m));
+  CHECK(test::warns(differs->result.warnings, "ring_down_differs"));
+  CHECK_FALSE(test::warns(joined->result.warnings, "ring_down_differs"));
   CHECK(*differs->result.damping_ratio().value == *alone->result.damping_ratio().value);
-}
-
-TEST_CASE("slips and ring-down are of one motion, of two, or cannot tell", "[ring_down]") {
-  const auto motion = [](double log_omega, double error, double zeta, double zeta_error) {
-    fit::FreeMotion one;
-    one.values << log_omega, zeta;
-    one.covariance << error * error, 0.0, 0.0, zeta_error * zeta_error;
-    return one;
-  };
-  const fit::FreeMotion slips = motion(4.0, 0.02, 0.1, 0.03);
-  const fit::SameMotion same = fit::compare_motions(slips, motion(4.01, 0.02, 0.12, 0.01));
-  REQUIRE(same.both);
-  CHECK(same.both->values(0) == Approx(4.005));
-  CHECK(same.both->values(1) == Approx(0.118));  // weights 1 to 9
-  CHECK(same.both->covariance(1, 1) == Approx(9e-5));
-  CHECK(fit::compare_motions(slips, motion(4.2, 0.02, 0.12, 0.01)).differs);
-  CHECK(fit::compare_motions(slips, motion(4.0, 0.02, 0.4, 0.01)).differs);
-  const fit::SameMotion untold = fit::compare_motions(motion(4.0, 0.3, 0.1, 0.03), motion(4.2, 0.02, 0.12, 0.01));
-  CHECK_FALSE(untold.both);
-  CHECK_FALSE(untold.differs);
 }

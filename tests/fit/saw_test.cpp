@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "fit/scene.hpp"
+#include "support/recordings.hpp"
 
 namespace slipfit {
 namespace {
@@ -43,9 +44,7 @@ Saw saw(std::size_t cycles, std::uint64_t seed, double hum_N = 0.0) {
 }
 
 Analysis fitted(Saw made) {
-  Conditions conditions;
-  conditions.speed_m_per_s = 0.01;
-  return analyze_and_fit(Recording::create(std::move(made.time_s), std::move(made.force), conditions).value());
+  return analyze_and_fit(test::recording_of(std::move(made.time_s), std::move(made.force), 0.01));
 }
 
 void check_half_of_drop(const Analysis& analysis) {

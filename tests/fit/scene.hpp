@@ -12,6 +12,7 @@
 
 #include "slipfit/model/simulation.hpp"
 #include "slipfit/pipeline.hpp"
+#include "support/recordings.hpp"
 
 namespace slipfit {
 
@@ -86,10 +87,7 @@ inline void check_truth(const Analysis& analysis, const Scene& s) {
 }
 
 inline bool has_warning(const Analysis& analysis, const std::string& code) {
-  for (const Warning& warning : analysis.warnings) {
-    if (warning.code == code) return true;
-  }
-  return false;
+  return test::warns(analysis.warnings, code);
 }
 
 }  // namespace slipfit

@@ -11,6 +11,7 @@
 #include "fit/law/coulomb.hpp"
 #include "model/reference_table.hpp"
 #include "scene.hpp"
+#include "support/recordings.hpp"
 
 using namespace slipfit;
 
@@ -114,34 +115,25 @@ Recording averaged(Scene s, double samples) {
 
 }  // namespace
 
-TEST_CASE("a slip seen through a slow sensor gives its parameters back") {
-  Scene s{.jitter = 0.03, .noise = 0.01};
-  const double lag = GENERATE(0.1, 0.5, 1.5);  // w_n T
-  SECTION("spring") {}
-  SECTION("transmitted") {
-    s.view = ForceView::Transmitted;
-  }
-  SECTION("little damping") {
-    s.zeta = 0.01;
-  }
-  const double lag_s = lag / s.omega;
-  INFO("w_n T = " << lag);
-  s.conditions.sensor_bandwidth_Hz = 1.0 / (2.0 * std::numbers::pi * lag_s);
-  const Analysis analysis = analyze_and_fit(through_sensor(s, lag_s));
-  REQUIRE(analysis.motion == MotionClass::StickSlip);
-  check_truth(analysis, s);
-  CHECK_FALSE(has_warning(analysis, "model_misfit"));
-}
-
 TEST_CASE("a slip seen through a stated filter gives its parameters back") {
-  Scene s{.jitter = 0.03, .noise = 0.01};
-  s.view = GENERATE(ForceView::Spring, ForceView::Transmitted);
-  const auto [order, by_omega] = GENERATE(table<int, double>({{2, 1.0}, {3, 1.0}, {4, 1.5}, {8, 4.0}}));
-  const double corner = by_omega * s.omega;
-  CAPTURE(order);
+  struct Seen {
+    int order;
+    double corner;  ///< over w_n
+    ForceView view = ForceView::Spring;
+    double zeta = 0.06;
+  };
+  constexpr ForceView kTransmitted = ForceView::Transmitted;
+  const Seen seen = GENERATE(
+      Seen{1, 10.0}, Seen{1, 2.0}, Seen{1, 1.0 / 1.5}, Seen{1, 10.0, kTransmitted}, Seen{1, 2.0, kTransmitted},
+      Seen{1, 1.0 / 1.5, kTransmitted}, Seen{1, 10.0, ForceView::Spring, 0.01}, Seen{1, 2.0, ForceView::Spring, 0.01},
+      Seen{1, 1.0 / 1.5, ForceView::Spring, 0.01}, Seen{2, 1.0}, Seen{3, 1.0}, Seen{4, 1.5}, Seen{8, 4.0},
+      Seen{2, 1.0, kTransmitted}, Seen{3, 1.0, kTransmitted}, Seen{4, 1.5, kTransmitted}, Seen{8, 4.0, kTransmitted});
+  CAPTURE(seen.order, seen.corner, seen.zeta);
+  Scene s{.zeta = seen.zeta, .jitter = 0.03, .noise = 0.01, .view = seen.view};
+  const double corner = seen.corner * s.omega;
   s.conditions.sensor_bandwidth_Hz = corner / (2.0 * std::numbers::pi);
-  s.conditions.sensor_filter_order = static_cast<std::size_t>(order);
-  const Analysis analysis = analyze_and_fit(through_filter(s, order, corner));
+  s.conditions.sensor_filter_order = static_cast<std::size_t>(seen.order);
+  const Analysis analysis = analyze_and_fit(through_filter(s, seen.order, corner));
   REQUIRE(analysis.motion == MotionClass::StickSlip);
   check_truth(analysis, s);
   CHECK_FALSE(has_warning(analysis, "model_misfit"));
@@ -205,16 +197,6 @@ TEST_CASE("a sensor that has not forgotten one slip when the next begins is warn
   if (analysis.motion == MotionClass::StickSlip) check_truth(analysis, "stiffness_N_per_m", s.stiffness);
 }
 
-TEST_CASE("a sensor much faster than the slip shows the slip itself") {
-  const fit::CoulombCycle cycle(8.0, 0.06, {1e-5}, ForceView::Spring);
-  const model::Slip& slip = cycle.wave.slip;
-  for (const double tau : {-0.5, 0.3, 1.0, 2.0, slip.tau_end - 0.01}) {
-    const double exact = tau < 0.0 ? slip.z0 + tau : model::slip_wave(slip, tau).z;
-    const double slope = tau < 0.0 ? 1.0 : model::slip_wave(slip, tau).d_tau;
-    CHECK(cycle.at(tau).z == Approx(exact - 1e-5 * slope).epsilon(1e-8));  // lags by T, to first order
-  }
-}
-
 TEST_CASE("a moving average of the limit cycle is that of numerical integration") {
   for (const auto& row : test::reference_rows("sensor_average.csv")) {
     const double lambda = row.at("lambda");
@@ -242,10 +224,7 @@ TEST_CASE("a stated averaging gives the parameters back, and unstated it is seen
   SECTION("stated") {
     Conditions conditions = shown.conditions();
     conditions.sensor_average_s = kSamples * shown.sample_interval_s();
-    const Recording stated = Recording::create({shown.time_s().begin(), shown.time_s().end()},
-                                               {shown.force().begin(), shown.force().end()}, conditions)
-                                 .value();
-    const Analysis analysis = analyze_and_fit(stated);
+    const Analysis analysis = analyze_and_fit(test::with_conditions(shown, conditions));
     check_truth(analysis, s);
     CHECK(parameter(analysis, "natural_frequency_rad_per_s").status == ParameterStatus::Conditional);
     CHECK(parameter(analysis, "sensor_average_s").status == ParameterStatus::Fixed);
@@ -259,32 +238,5 @@ TEST_CASE("a stated averaging gives the parameters back, and unstated it is seen
     // One recording: one in twenty lies outside the interval, one in four hundred outside three standard errors.
     CHECK(std::abs(*omega.estimate.value - s.omega) < 3.0 * *omega.estimate.standard_error);
     CHECK(parameter(analysis, "mass_kg").status == ParameterStatus::Weak);
-  }
-}
-
-TEST_CASE("an average without a lag is the same by either class") {
-  const double zeta = GENERATE(-0.05, 0.0, 0.1, 0.6);
-  const ForceView view = GENERATE(ForceView::Spring, ForceView::Transmitted);
-  const bool transmitted = view == ForceView::Transmitted;
-  const double average = GENERATE(0.3, 2.0, 6.0);
-  const model::Slip slip = model::solve_slip(8.0, zeta);
-  CAPTURE(zeta, transmitted, average);
-  const fit::CoulombMotion motion(fit::CoulombWave(8.0, zeta, view));
-  const fit::ShownMotion<fit::CoulombMotion> sensed(motion, {0.0, average});
-  const fit::AveragedSlip averaged(slip, model::stick_after(slip), average, transmitted);
-  constexpr double kStep = 0.05;
-  const fit::CoulombCycle cycle(8.0, zeta, {0.0, average}, view);
-  fit::CoulombCycle::Samples samples(cycle, kStep);
-  for (int i = 0; i * kStep < slip.tau_end + 2.0 * average; ++i) {
-    if (i % 7 == 3) continue;  // some samples are left out
-    const double tau = i * kStep - average;
-    const fit::ShownPoint a = sensed.at(tau);
-    for (const model::WavePoint& b : {averaged.at(tau), samples.at(tau)}) {
-      CHECK(b.z == Approx(a.z).margin(1e-11));  // rounding
-      CHECK(b.d_z0 == Approx(a.d_z0).margin(1e-11));
-      CHECK(b.d_zeta == Approx(a.d_zeta).margin(1e-10));
-      CHECK(b.d_tau == Approx(a.d_tau).margin(1e-11));
-      CHECK(b.d_log_omega == Approx(a.d_log_omega).margin(1e-11));
-    }
   }
 }

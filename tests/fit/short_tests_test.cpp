@@ -5,6 +5,7 @@
 
 #include "analysis/conclusions.hpp"
 #include "scene.hpp"
+#include "support/recordings.hpp"
 
 using namespace slipfit;
 
@@ -61,9 +62,7 @@ ShortTest find(const std::vector<ShortTest>& tests, TestKind kind) {
 }
 
 std::vector<ShortTest> tests_of(const Contact& contact, std::uint64_t seed) {
-  Conditions conditions;
-  conditions.speed_m_per_s = 1.0;
-  const Recording clock = Recording::create({0.0, 110.0}, {0.0, 1.0}, conditions).value();
+  const Recording clock = test::recording_of({0.0, 110.0}, {0.0, 1.0}, 1.0);
   return run_short_tests(clock, cycles_of(contact, seed));
 }
 
@@ -135,13 +134,7 @@ TEST_CASE("a level that repeats over the path is told by its length, scatter and
 }
 
 TEST_CASE("short tests: cycles alike to the last digit leave nothing to test, and no infinite number") {
-  const Recording clock = Recording::create({0.0, 110.0}, {0.0, 1.0},
-                                            [] {
-                                              Conditions conditions;
-                                              conditions.speed_m_per_s = 1.0;
-                                              return conditions;
-                                            }())
-                              .value();
+  const Recording clock = test::recording_of({0.0, 110.0}, {0.0, 1.0}, 1.0);
   Analysis alike = cycles_of({}, 5);
   double time_s = 0.0;
   bool is_odd = false;

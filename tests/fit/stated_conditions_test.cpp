@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "scene.hpp"
+#include "support/recordings.hpp"
 
 using namespace slipfit;
 
@@ -110,12 +111,9 @@ TEST_CASE("a measured load that follows the force is in the mass") {
   CAPTURE(share);
   std::vector<double> load_N;
   for (const double force : plain.force()) load_N.push_back(kLoad_N + share / coefficient * (force - s.kinetic_N));
-  const Recording measured =
-      Recording::create({plain.time_s().begin(), plain.time_s().end()}, {plain.force().begin(), plain.force().end()},
-                        plain.conditions(), {}, load_N)
-          .value();
   const Estimate without = parameter(analyze_and_fit(plain), "mass_kg").estimate;
-  const Estimate with = parameter(analyze_and_fit(measured), "mass_kg").estimate;
+  const Estimate with =
+      parameter(analyze_and_fit(test::with_conditions(plain, plain.conditions(), load_N)), "mass_kg").estimate;
   CHECK(*with.value == Approx((1.0 - share) * *without.value).epsilon(2e-3));
   CHECK(with.ci95->high > with.ci95->low);
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "scene.hpp"
+#include "support/recordings.hpp"
 
 namespace slipfit {
 namespace {
@@ -23,7 +24,7 @@ Recording on_uneven_drive(const Recording& even, double frequency_Hz) {
     const double share = place - static_cast<double>(below);
     force.push_back((1.0 - share) * even.force()[below] + share * even.force()[below + 1]);
   }
-  return Recording::create({even.time_s().begin(), even.time_s().end()}, std::move(force), even.conditions()).value();
+  return test::with_force(even, std::move(force));
 }
 
 Scene scene() {
@@ -58,9 +59,7 @@ TEST_CASE("sticks that flatten at both ends are curved, though their halves are 
     const double u = (f - s.kinetic_N) / difference;
     force.push_back(f - 0.05 * difference * std::pow(u, 5));  // the slope falls by a quarter towards either end
   }
-  const Recording bent =
-      Recording::create({straight.time_s().begin(), straight.time_s().end()}, force, straight.conditions()).value();
-  const Parameter& k = parameter(analyze_and_fit(bent), "stiffness_N_per_m");
+  const Parameter& k = parameter(analyze_and_fit(test::with_force(straight, force)), "stiffness_N_per_m");
   CHECK(k.status != ParameterStatus::Identified);
   CHECK_THAT(k.estimate.note, Catch::Contains("over their second half"));
 }

@@ -5,21 +5,11 @@
 #include <utility>
 #include <vector>
 
-#include "analysis/detect.hpp"
 #include "fit/scene.hpp"
-#include "fit/selection/damped_fit.hpp"
-#include "fit/selection/tiers.hpp"
+#include "support/recordings.hpp"
 
 namespace slipfit {
 namespace {
-
-bool is_noisy(const Recording& recording) {
-  const Detected detected = detect(recording);
-  const Signals& signals = detected.signals;
-  const auto fit = fit::draft_damped({detected.recording(), signals.quality, signals.segmentation, {}});
-  REQUIRE(fit);
-  return fit::noise_exceeds_shape(signals.quality.noise_rms, *fit);
-}
 
 Recording sine(double fifth_harmonic, double noise_rms = 0.0) {
   std::mt19937_64 random(5);
@@ -30,17 +20,10 @@ Recording sine(double fifth_harmonic, double noise_rms = 0.0) {
     const double phase = 2.0 * std::numbers::pi * 2.5 * time_s.back();
     force.push_back(3.0 + std::sin(phase) + fifth_harmonic * std::sin(5.0 * phase) + noise_rms * noise(random));
   }
-  Conditions conditions;
-  conditions.speed_m_per_s = 0.01;
-  return Recording::create(std::move(time_s), std::move(force), conditions).value();
+  return test::recording_of(std::move(time_s), std::move(force), 0.01);
 }
 
 }  // namespace
-
-TEST_CASE("noise that hides how slips are shaped: no other shape of the slip is tried") {
-  CHECK(is_noisy(record({.cycles = 100.0, .noise = 0.5})));
-  CHECK_FALSE(is_noisy(record({.cycles = 100.0, .noise = 0.02})));
-}
 
 TEST_CASE("a wave that three sines follow has no sticks to fit") {
   CHECK_FALSE(analyze_and_fit(sine(0.0)).fit);
