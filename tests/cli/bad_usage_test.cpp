@@ -7,18 +7,6 @@
 using test::check_refused;
 using test::run_slipfit;
 
-TEST_CASE("wrong usage is refused with exit code 2 and one line before the recording is opened") {
-  const std::string file = "no-such-recording.csv";
-  check_refused({}, "analyze, fit, info, simulate");
-  check_refused({"polish", "x.csv", "--speed", "1"}, "unknown command 'polish'");
-  check_refused({"fit"}, "REC");
-  const test::TemporaryFolder folder;
-  check_refused({"fit", folder.file("run.csv", test::simulated_csv("5"))}, "--speed is missing");
-  check_refused({"fit", file, "--speed"}, "--speed");
-  check_refused({"fit", file, "--speed", "1", "--sped", "2"}, "--sped (did you mean '--speed'?)");
-  check_refused({"fitt", file}, "(did you mean 'fit'?)");
-}
-
 TEST_CASE("a file in place of a command is fitted, and symbols name parameters") {
   const test::TemporaryFolder folder;
   const std::string file = folder.file("run.csv", test::simulated_csv("5"));
@@ -81,9 +69,6 @@ TEST_CASE("options of the fit that make no sense are refused") {
   refused("--fix", "stiffness_N_per_m=0", "above 0");
   refused("--fix", "stiffness_N_per_m=1e400", "1e400");
   refused("--fix", "stiffness_N_per_m=12x", "12x");
-}
-
-TEST_CASE("a parameter that is fixed twice is refused") {
   check_refused({"fit", "x.csv", "--speed", "1", "--fix", "damping_ratio=0.1", "--fix", "damping_ratio=0.2"}, "twice");
 }
 

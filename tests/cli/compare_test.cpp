@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "json_of.hpp"
 #include "recordings.hpp"
 #include "refusal.hpp"
 #include "run_program.hpp"
@@ -15,14 +16,9 @@ using test::simulated_csv;
 
 namespace {
 
-json compared(std::vector<std::string> arguments) {
-  arguments.insert(arguments.begin(), "compare");
-  arguments.insert(arguments.end(), {"--json", "--quiet"});
-  const test::ProgramResult result = run_slipfit(arguments);
-  CAPTURE(arguments, result.err);
-  REQUIRE(result.exit_code == 0);
-  CHECK(result.err.empty());
-  return json::parse(result.out);
+json compared(std::vector<std::string> sides) {
+  sides.insert(sides.begin(), "compare");
+  return test::json_of(sides, {"--json", "--quiet"});
 }
 
 }  // namespace

@@ -107,22 +107,6 @@ TEST_CASE("batch takes one recording, several and folders, and a manifest alone"
   check_refused({"batch", broken, "--out", folder.path("o")}, "there is no column 'file'");
 }
 
-TEST_CASE("a page is HTML whatever the ending of --report") {
-  const test::TemporaryFolder folder;
-  const std::string a = folder.file("a.csv", simulated_csv("1"));
-  check_refused({"fit", a, "--speed", "20mm/s", "--report", folder.path("x.pdf")}, "print it to PDF");
-  check_refused({"fit", a, "--speed", "20mm/s", "--report", folder.path("x.pdf")}, "x.html");
-  check_refused({"batch", a, "--speed", "20mm/s", "--out", folder.path("o"), "--report", folder.path("x.pdf")},
-                "x.html");
-  CHECK_FALSE(std::filesystem::exists(folder.path("o")));
-  CHECK_FALSE(std::filesystem::exists(folder.path("x.pdf")));
-}
-
-TEST_CASE("fit --joint of a manifest with several groups asks for one") {
-  const test::SweepExample example;
-  check_refused({"fit", "--joint", example.manifest}, "choose it with --group");
-}
-
 TEST_CASE("fit --joint of several files refuses in one line what it cannot do, with a remedy that works") {
   const test::SweepExample example;
   const std::string slow = example.folder.path("slow.csv");
@@ -171,16 +155,6 @@ TEST_CASE("batch takes a folder: its manifest is drafted, and options state what
   check_refused({"batch", out + "/manifest.csv", "--out", folder.path("o"), "--speed", "1"},
                 "--speed cannot be combined with");
   CHECK(test::content_of(out + "/results.jsonl") == results);
-}
-
-TEST_CASE("batch of a folder applies options to all its recordings") {
-  const test::TemporaryFolder folder;
-  std::filesystem::create_directory(folder.path("runs"));
-  static_cast<void>(folder.file("runs/a.csv", simulated_csv("1")));
-  const std::string out = folder.path("out");
-  REQUIRE(run_slipfit({"batch", folder.path("runs"), "--out", out, "--speed", "20mm/s", "--mass", "30 g"}).exit_code ==
-          0);
-  CHECK_THAT(test::content_of(out + "/results.jsonl"), Catch::Contains("\"mass_kg\":0.03"));
 }
 
 TEST_CASE("sample, material and operator of a manifest reach results and pages, whose heading is the file's name") {

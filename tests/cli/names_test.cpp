@@ -10,9 +10,9 @@
 
 namespace {
 
-/// ESC, C1, overriding direction, line separator, zero width, and a byte that is not UTF-8.
-constexpr const char* kName = "a\x1b[2J\xc2\x9b\xe2\x80\xae\xe2\x80\xa8\xe2\x80\x8b\xff.csv";
-constexpr const char* kShown = "a\\u001b[2J\\u009b\\u202e\\u2028\\u200b\\xff.csv";
+/// Line break, ESC, C1, overriding direction, line separator, zero width, and a byte that is not UTF-8.
+constexpr const char* kName = "a\n\x1b[2J\xc2\x9b\xe2\x80\xae\xe2\x80\xa8\xe2\x80\x8b\xff.csv";
+constexpr const char* kShown = "a\\n\\u001b[2J\\u009b\\u202e\\u2028\\u200b\\xff.csv";
 
 std::string recording_with(const std::string& force_name) {
   std::string csv = test::simulated_csv("7");
@@ -42,7 +42,7 @@ TEST_CASE("names of files and columns reach the terminal without control and for
     CHECK(slipfit::printable_lines(text) == text);
     const bool is_json = std::find(arguments.begin(), arguments.end(), "--json") != arguments.end();
     if (is_json) return;  // escaped as JSON demands
-    CHECK_THAT(text, Catch::Contains("\\u001b[2J\\u009b\\u202e\\u2028\\u200b\\xff"));
+    CHECK_THAT(text, Catch::Contains("a\\n\\u001b[2J\\u009b\\u202e\\u2028\\u200b\\xff"));
   };
   check({"info", recording});
   check({"info", recording, "--json"});

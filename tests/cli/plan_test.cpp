@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "fit_example.hpp"
+#include "json_of.hpp"
 #include "refusal.hpp"
 #include "sweep_example.hpp"
 
@@ -12,22 +13,9 @@ using nlohmann::json;
 using test::check_refused;
 using test::run_slipfit;
 
-namespace {
-
-json planned(const std::vector<std::string>& options) {
-  std::vector<std::string> arguments{"plan", "--json"};
-  arguments.insert(arguments.end(), options.begin(), options.end());
-  const test::ProgramResult result = run_slipfit(arguments);
-  CAPTURE(arguments, result.err);
-  REQUIRE(result.exit_code == 0);
-  return json::parse(result.out);
-}
-
-}  // namespace
-
 TEST_CASE("plan starts from the worst known parameter and names what limits each") {
   const test::FitExample example;
-  const json plan = planned({example.fit});
+  const json plan = test::json_of({"plan", example.fit, "--json"});
   const json parameters = example.document()["parameters"];
   CHECK(plan["schema"] == "slipfit.plan/1");
   CHECK(plan["source"] == example.fit);
@@ -52,7 +40,8 @@ TEST_CASE("plan starts from the worst known parameter and names what limits each
 TEST_CASE("plan reads joint fits, and narrows a predicted spacing") {
   const test::SweepExample example;
   static_cast<void>(example.fit({"--group", "pad"}));
-  const json plan = planned({example.out, "--for", "periodic_displacement_m", "--at", "100mm/s"});
+  const json plan =
+      test::json_of({"plan", example.out, "--for", "periodic_displacement_m", "--at", "100mm/s", "--json"});
   CHECK(plan["target"]["name"] == "periodic_displacement_m");
   CHECK(plan["target"]["speed_m_per_s"] == 0.1);
   CHECK(plan["options"].size() >= 3);

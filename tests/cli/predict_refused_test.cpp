@@ -193,18 +193,6 @@ TEST_CASE("speeds that make no sense are refused") {
   test::check_refused({"predict", "--stiffness", "1"}, "--speeds is missing");
 }
 
-TEST_CASE("the model is a fit document or options, not both, not neither, not half") {
-  test::check_refused({"predict", "--speeds", "1"}, "model is missing");
-  test::check_refused({"predict", "fit.json", "--stiffness", "1000", "--speeds", "1"}, "not both");
-  test::check_refused({"predict", "fit.json", "--damping-ratio", "0", "--speeds", "1"}, "not both");
-  test::check_refused({"predict", "--stiffness", "1000", "--mass", "1", "--speeds", "1"},
-                      "--static-friction is missing");
-  test::check_refused(
-      {"predict", "--stiffness", "1000", "--static-friction", "3", "--kinetic-friction", "2", "--speeds", "1"},
-      "--natural-frequency");
-  test::check_refused({"predict", "a.json", "b.json", "--speeds", "1"}, "b.json");
-}
-
 TEST_CASE("an output that would destroy the fit document is refused") {
   const test::FitExample example;
   const std::string before = test::content_of(example.fit);

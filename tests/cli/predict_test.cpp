@@ -1,8 +1,8 @@
 #include <catch2/catch.hpp>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "fit_example.hpp"
+#include "json_of.hpp"
 #include "refusal.hpp"
 #include "run_program.hpp"
 
@@ -11,19 +11,9 @@ using test::run_slipfit;
 
 namespace {
 
-std::filesystem::path project_folder() {
-  return std::filesystem::path(SLIPFIT_TESTDATA_DIR).parent_path();
-}
-
-json predicted(const std::vector<std::string>& source, const std::string& speeds) {
-  std::vector<std::string> arguments{"predict"};
-  arguments.insert(arguments.end(), source.begin(), source.end());
-  arguments.insert(arguments.end(), {"--speeds", speeds, "--json"});
-  const test::ProgramResult result = run_slipfit(arguments);
-  CAPTURE(arguments, result.err);
-  REQUIRE(result.exit_code == 0);
-  CHECK(result.err.empty());
-  return json::parse(result.out);
+json predicted(std::vector<std::string> source, const std::string& speeds) {
+  source.insert(source.begin(), "predict");
+  return test::json_of(source, {"--speeds", speeds, "--json"});
 }
 
 void check_same(const json& quantity, const json& estimate) {
@@ -74,19 +64,6 @@ TEST_CASE("the round trip keeps the intervals also if the damping is at its boun
     check_same(prediction["rows"][0]["periodic_displacement_m"], derived["periodic_displacement_m"]);
     CHECK(prediction["critical_speed_m_per_s"]["value"] == derived["critical_speed_m_per_s"]["value"]);
   }
-}
-
-TEST_CASE("speeds are a logarithmic range with exact ends, or a list in the order given") {
-  const json range = predicted(test::model_options(), "1mm/s:1m/s:4")["rows"];
-  REQUIRE(range.size() == 4);
-  CHECK(range[0]["speed_m_per_s"] == 0.001);
-  CHECK(range[1]["speed_m_per_s"].get<double>() == Approx(0.01));
-  CHECK(range[3]["speed_m_per_s"] == 1.0);
-  const json list = predicted(test::model_options(), "0.5,5mm/s, 10 mm/s")["rows"];
-  REQUIRE(list.size() == 3);
-  CHECK(list[0]["speed_m_per_s"] == 0.5);
-  CHECK(list[1]["speed_m_per_s"] == 0.005);
-  CHECK(list[2]["speed_m_per_s"] == 0.01);
 }
 
 TEST_CASE("model options give the exact motion without intervals, and above the critical speed there is none") {
@@ -166,45 +143,4 @@ TEST_CASE("a fit document without correlation, or without F_k, leaves intervals 
   const json normal = predicted({example.folder.file("normal.json", document.dump())}, "20mm/s")["rows"][0];
   const json student = predicted({example.fit}, "20mm/s")["rows"][0];
   CHECK(normal["period_s"]["ci95"][0].get<double>() > student["period_s"]["ci95"][0].get<double>());
-}
-
-TEST_CASE("hostile names of fit documents neither break the JSON nor forge lines") {
-  const test::FitExample example;
-  const std::string odd = example.folder.file("\xff\xfe\"\\\n odd.json", test::content_of(example.fit));
-  const test::ProgramResult document = run_slipfit({"predict", odd, "--speeds", "0.1", "--json"});
-  CHECK(document.exit_code == 0);
-  CHECK(json::accept(document.out));
-  const test::ProgramResult text = run_slipfit({"predict", odd, "--speeds", "0.1"});
-  CHECK(text.exit_code == 0);
-  CHECK(test::lines_in(text.out) == test::lines_in(run_slipfit({"predict", example.fit, "--speeds", "0.1"}).out));
-  test::check_refused({"predict", example.folder.file("bad\nslipfit: ok.json", "{"), "--speeds", "0.1"},
-                      "not one JSON");
-}
-
-TEST_CASE("every kind of prediction obeys docs/predict.schema.json, and docs/formats.md names its keys") {
-  const test::FitExample example;
-  const test::FitExample without_zero(std::vector<std::string>{});
-  const std::string schema = (project_folder() / "docs/predict.schema.json").string();
-  std::vector<std::string> arguments{(project_folder() / "tests/cli/validate_schema.py").string(), schema};
-  const auto add = [&](const json& document) {
-    arguments.push_back(example.folder.file(std::to_string(arguments.size()) + ".json", document.dump()));
-  };
-  add(predicted({example.fit}, "1mm/s:1m/s:20"));
-  add(predicted({without_zero.fit}, "20mm/s,0.42"));
-  add(predicted(test::model_options(), "20mm/s,0.5"));
-  add(predicted({"--stiffness", "1e3", "--mass", "1", "--static-friction", "6", "--kinetic-friction", "4"},
-                "1e-300,1e-9,1,1e9,1e300"));
-  test::ProgramResult result = test::run_program("python3", arguments);
-  if (result.exit_code == 77 && std::filesystem::exists("/usr/bin/python3")) {
-    result = test::run_program("/usr/bin/python3", arguments);
-  }
-  CAPTURE(result.out, result.err);
-  if (result.exit_code == 77) WARN("skipped: python3-jsonschema is not installed");
-  CHECK((result.exit_code == 0 || result.exit_code == 77));
-
-  const json described = json::parse(test::content_of(schema));
-  const std::string formats = test::content_of((project_folder() / "docs/formats.md").string());
-  for (const json& properties : {described["properties"], described["properties"]["rows"]["items"]["properties"]}) {
-    for (const auto& [key, value] : properties.items()) CHECK_THAT(formats, Catch::Contains("`" + key + "`"));
-  }
 }

@@ -60,16 +60,6 @@ TEST_CASE("a joint fit shows its steps on a terminal alone, and takes them off i
   CHECK(shown_on_terminal(quiet, out).empty());
 }
 
-TEST_CASE("a joint fit of strokes or segments shows its steps as other joint fits do") {
-  const test::TemporaryFolder folder;
-  const std::string file = folder.file("sweep.csv", test::segments_csv());
-  const std::vector<std::string> command{"fit", file, "--segments", "--json"};
-  CHECK_THAT(shown_on_terminal(command, folder.path("out.json")),
-             Catch::Contains("analysing recording 3 of 3") && Catch::Contains("fitting 3 recordings together") &&
-                 Catch::EndsWith("\r\x1b[K"));
-  CHECK(test::run_slipfit(command).err.empty());
-}
-
 TEST_CASE("compare shows which recording it fits on a terminal alone") {
   const test::SweepExample example;
   const std::string slow = example.folder.path("slow.csv");

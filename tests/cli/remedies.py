@@ -270,7 +270,7 @@ def run(folder, words):
 def main():
     faults, lines = [], []
     documented = (PROJECT / "docs" / "formats.md").read_text().split("\n## Errors\n")[1].split("\n## ")[0]
-    known = {code for row in re.findall(r"\n\| (`[^|]*) \|", documented) for code in re.findall(r"`(\w+)`", row)}
+    known = {code: exits for row, exits in re.findall(r"\n\| (`[^|]*) \| ([^|]*) \|", documented) for code in re.findall(r"`(\w+)`", row)}
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         write_files(folder)
@@ -280,8 +280,11 @@ def main():
             after = run(folder, remedied)
             remedy = " ".join(f"'{word}'" if " " in word else word for word in remedied)
             lines.append(f"| `{code}` | {message.removeprefix('slipfit: ').replace('|', '&#124;')} | `{remedy}` |")
-            if done.returncode not in (1, 2, 3) or not re.search(words, message) or message.count("\n"):
-                faults.append(f"{code}: exit code {done.returncode}, expected a message with '{words}': {message}")
+            exits = re.findall(r"\b[123]\b", known.get(code, "2"))
+            if str(done.returncode) not in exits or done.stdout:
+                faults.append(f"{code}: exit code {done.returncode}, expected {exits} and no output: {done.stdout[:200]}")
+            if not re.search(words, message) or done.stderr != message + "\n" or not message.startswith("slipfit: "):
+                faults.append(f"{code}: expected one line with '{words}': {done.stderr}")
             if after.returncode != 0:
                 faults.append(f"{code}: the remedy fails: slipfit {' '.join(remedied)}: {after.stderr.strip()}")
             if code not in known and code != "wrong_usage":

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "slipfit/report/comparison.hpp"
+#include "support/recordings.hpp"
 
 using namespace slipfit;
 using nlohmann::json;
@@ -41,13 +42,6 @@ const QuantityComparison& of(const Comparison& comparison, std::string_view key)
   throw;
 }
 
-bool warns(const Comparison& comparison, const std::string& code) {
-  for (const Warning& warning : comparison.warnings) {
-    if (warning.code == code) return true;
-  }
-  return false;
-}
-
 }  // namespace
 
 TEST_CASE("one recording on each side: standard errors, and that repeats are not known") {
@@ -60,8 +54,8 @@ TEST_CASE("one recording on each side: standard errors, and that repeats are not
   CHECK(stiffness.differs());
   CHECK(*stiffness.p_adjusted == Approx(2.0 * *stiffness.p_value));  // with the frequency
   CHECK(*of(comparison, "frequency_Hz").p_value == Approx(1.0));
-  CHECK(warns(comparison, "scatter_unknown"));
-  CHECK_FALSE(warns(comparison, "speeds_differ"));
+  CHECK(test::warns(comparison.warnings, "scatter_unknown"));
+  CHECK_FALSE(test::warns(comparison.warnings, "speeds_differ"));
   CHECK(comparison.a.fits.front().group == "dry");
 }
 
@@ -77,10 +71,10 @@ TEST_CASE("cycles do not count, recordings do") {
   CHECK(stiffness.a.recordings == 3);
   CHECK(*stiffness.difference.standard_error == Approx(100.0 * std::sqrt(2.0 / 3.0)));
   CHECK(*stiffness.p_value > 0.3);
-  CHECK_FALSE(warns(comparison, "scatter_unknown"));
+  CHECK_FALSE(test::warns(comparison.warnings, "scatter_unknown"));
   side_b.fits.resize(1);
   CHECK(of(compare(side_a, side_b), "stiffness_N_per_m").method == ComparisonMethod::ScatterOfA);
-  CHECK(warns(compare(side_a, side_b), "scatter_of_one_side"));
+  CHECK(test::warns(compare(side_a, side_b).warnings, "scatter_of_one_side"));
 }
 
 TEST_CASE("a quantity that one side lacks is null with a reason") {
@@ -111,7 +105,8 @@ TEST_CASE("other speeds, loads and kinds of motion are said") {
   other["recording"]["normal_force_N"] = 7.0;
   other["status"] = "steady_sliding";
   const Comparison comparison = compare({"a", {fit_of(document(1000.0))}}, {"b", {fit_of(other)}});
-  for (const char* const code : {"speeds_differ", "loads_differ", "motions_differ"}) CHECK(warns(comparison, code));
+  for (const char* const code : {"speeds_differ", "loads_differ", "motions_differ"})
+    CHECK(test::warns(comparison.warnings, code));
 }
 
 TEST_CASE("a zero that some recordings lack is said") {
@@ -120,7 +115,7 @@ TEST_CASE("a zero that some recordings lack is said") {
   json unknown = document(1000.0);
   unknown["recording"]["zero_force_N"] = nullptr;
   const auto warns_of = [](const json& one, const json& other) {
-    return warns(compare({"a", {fit_of(one)}}, {"b", {fit_of(other)}}), "zeros_differ");
+    return test::warns(compare({"a", {fit_of(one)}}, {"b", {fit_of(other)}}).warnings, "zeros_differ");
   };
   CHECK(warns_of(zeroed, unknown));
   CHECK_FALSE(warns_of(zeroed, zeroed));
@@ -134,9 +129,9 @@ TEST_CASE("a recording that counts twice is said") {
   json second = first;
   second["recording"]["sliding_s"] = {1.0, 2.0};
   const ComparedFit run = fit_of(first);
-  CHECK(warns(compare({"a", {run, run}}, {"b", {fit_of(document(1000.0))}}), "recording_repeated"));
-  CHECK(warns(compare({"a", {run}}, {"b", {run}}), "recording_repeated"));
-  CHECK_FALSE(warns(compare({"a", {run}}, {"b", {fit_of(second)}}), "recording_repeated"));
+  CHECK(test::warns(compare({"a", {run, run}}, {"b", {fit_of(document(1000.0))}}).warnings, "recording_repeated"));
+  CHECK(test::warns(compare({"a", {run}}, {"b", {run}}).warnings, "recording_repeated"));
+  CHECK_FALSE(test::warns(compare({"a", {run}}, {"b", {fit_of(second)}}).warnings, "recording_repeated"));
 }
 
 TEST_CASE("the document of a comparison has the keys of its schema, and text and page agree with it") {
