@@ -139,17 +139,6 @@ TEST_CASE("a remedy names the column of the manifest, not the option of slipfit 
   CHECK_THAT(failures.at(1), Catch::Contains("the manifest's force_column") && !Catch::Contains("--force-column"));
 }
 
-TEST_CASE("a recording that may not be read is a failure, too") {
-  const BatchScene scene(2);
-  std::filesystem::permissions(scene.path("r1.csv"), std::filesystem::perms::none);
-  if (std::ifstream(scene.path("r1.csv")).good()) {
-    WARN("skipped: this user (root) may read every file");
-    return;
-  }
-  CHECK(batch(scene.manifest(), scene.path("out")).exit_code == 1);
-  CHECK_THAT(files_in(scene.path("out")).failures, Catch::Contains("r1,not_readable,"));
-}
-
 TEST_CASE("run.json records what was run and how it ended") {
   const BatchScene scene(2);
   REQUIRE(batch(scene.manifest(), scene.path("out"), {"--jobs", "2", "--fix", "damping_ratio=0.05"}).exit_code == 0);

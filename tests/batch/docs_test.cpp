@@ -19,23 +19,6 @@ std::string quoted(const std::string& name) {
 
 }  // namespace
 
-TEST_CASE("the Python example of docs/formats.md loads the results of a batch") {
-  const BatchScene scene(3);
-  REQUIRE(test::batch(scene.manifest(), scene.path("results")).exit_code == 0);
-  const std::string text = formats();
-  const std::string fence = "```python\n";
-  const std::size_t begin = text.find(fence);
-  REQUIRE(begin != std::string::npos);
-  const std::string code =
-      text.substr(begin + fence.size(), text.find("```", begin + fence.size()) - begin - fence.size());
-  const std::string script = scene.file("example.py", "import os, sys\nos.chdir(sys.path[0])\n" + code);
-  const auto run = test::run_program("python3", {script});
-  CAPTURE(run.err);
-  CHECK(run.exit_code == 0);
-  CHECK(test::lines_in(run.out) == 2);  // r0 is short: its stiffness is weak
-  CHECK_THAT(run.out, Catch::StartsWith("r1: ") && Catch::Contains(" N/m, 95 % in "));
-}
-
 TEST_CASE(
     "docs/formats.md names every column of summary.csv but bounds and errors of parameters, and every key of "
     "run.json") {

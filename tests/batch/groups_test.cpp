@@ -97,14 +97,18 @@ TEST_CASE("a group that fails is a row of failures.csv under its id, and is trie
   CHECK(files_in(scene.path("out")) == files_in(scene.path("whole")));
 }
 
-TEST_CASE("a fit that throws is that recording's failure") {
+TEST_CASE("a fit that throws is that recording's failure, and does not end the batch") {
   const BatchScene scene(3);
+  const auto [is_exception, code] =
+      GENERATE(table<bool, std::string>({{true, "out_of_memory"}, {false, "internal_error"}}));
   BatchOptions options = options_for(scene, "out");
-  options.fit_group = [](const std::string&, const std::vector<ManifestEntry>&) -> Result<BatchFit> {
-    throw std::bad_alloc();
+  options.fit_group = [is_exception = is_exception](const std::string&,
+                                                    const std::vector<ManifestEntry>&) -> Result<BatchFit> {
+    if (is_exception) throw std::bad_alloc();
+    throw 1;
   };
   run_ok(options, 2);
-  CHECK_THAT(files_in(scene.path("out")).failures, Catch::Contains("group:g0,out_of_memory,"));
+  CHECK_THAT(files_in(scene.path("out")).failures, Catch::Contains("group:g0," + code + ","));
 }
 
 TEST_CASE("a fit that ends its process is tried three times, and touches no other") {

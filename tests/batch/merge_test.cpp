@@ -1,7 +1,6 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
-#include "batch/work_list.hpp"
 #include "manifests.hpp"
 #include "refusal.hpp"
 #include "slipfit/core/digest.hpp"
@@ -53,19 +52,6 @@ TEST_CASE("merged shards are the files of one machine, failures included") {
   CHECK(record["rows"] == 11);
   CHECK(record["fitted"] == 9);
   CHECK(record["shard"]["count"] == 1);
-}
-
-TEST_CASE("shards take rows in turn, whatever their files contain") {
-  const BatchScene scene(7);
-  slipfit::BatchOptions options;
-  options.manifest = scene.manifest();
-  options.folder = scene.path("out");
-  options.shard = {2, 3};
-  const std::vector<bool> second{false, true, false, false, true, false, false};
-  CHECK(slipfit::batch::list_work(options).is_mine == second);
-  (void)scene.file("r1.csv", std::string(1U << 20U, '#'));
-  std::filesystem::remove(scene.path("r4.csv"));
-  CHECK(slipfit::batch::list_work(options).is_mine == second);
 }
 
 TEST_CASE("a merge of what does not belong together is refused") {

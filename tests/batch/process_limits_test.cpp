@@ -48,21 +48,6 @@ TEST_CASE("where no other process can be started the work is done with fewer, do
   }
 }
 
-TEST_CASE("little memory and many jobs end no batch") {
-  const BatchScene scene(5);
-  if (in_shell(scene, "ulimit -v 300000; exec \"$0\" --version").exit_code != 0) {
-    WARN("skipped: this program reserves addresses without limit (sanitizers)");
-    return;
-  }
-  REQUIRE(batch(scene.manifest(), scene.path("whole")).exit_code == 0);
-  const auto run = in_shell(scene, "ulimit -v 200000; exec \"$0\" batch \"$1\" --out \"$2\" --jobs 64");
-  CAPTURE(run.err);
-  CHECK(run.exit_code <= 1);
-  CHECK(nlohmann::json::parse(content_of(scene.path("out/run.json")))["finished"] == true);
-  CHECK(batch(scene.manifest(), scene.path("out"), {"--resume"}).exit_code == 0);
-  CHECK(files_in(scene.path("out")) == files_in(scene.path("whole")));
-}
-
 TEST_CASE("without --jobs there is one a core that the process may use") {
   const BatchScene scene(1);
   const auto run = in_shell(

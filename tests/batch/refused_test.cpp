@@ -27,7 +27,6 @@ TEST_CASE("options of a batch that make no sense are refused") {
   for (const std::string shard : {"0/2", "3/2", "1", "1/", "/2", "1/0", "-1/2", "1/2x", "a/b"}) {
     check_refused_batch(scene, scene.manifest(), {"--shard", shard}, "expected I/N");
   }
-  check_refused_batch(scene, scene.manifest(), {"--jobs", "0"}, "--jobs");
   check_refused_batch(scene, scene.manifest(), {"--jobs", "-1"}, "--jobs");
   check_refused_batch(scene, scene.manifest(), {"--jobs", "many"}, "--jobs");
   check_refused_batch(scene, scene.manifest(), {"--tier", "cubic"}, "--tier");
@@ -39,18 +38,10 @@ TEST_CASE("options of a batch that make no sense are refused") {
 
 TEST_CASE("a manifest with any fault is refused before anything is done") {
   const BatchScene scene(2);
-  const std::string names = "id,file,speed_m_per_s\n";
-  const auto refused = [&](const std::string& content, const std::string& part) {
-    check_refused_batch(scene, scene.file("bad.csv", content), {}, part);
-  };
-  refused("id,file\nr0,r0.csv\n", "there is no column 'speed_m_per_s'");
-  refused(names + "r0,r0.csv,0.02\nr0,r1.csv,0.02\n", "bad.csv:3: column 'id': 'r0' is also in line 2");
-  refused("id,file,speed [furlong]\nr0,r0.csv,1\n", "'furlong' is not a unit of speed");
-  refused(names + "r0,r0.csv,0.02\nr1,r1.csv\n", "bad.csv:3: 2 fields");
-  refused(names + "r0,r0.csv,0.02\na/b,r1.csv,0.02\n", "bad.csv:3: column 'id': bad value 'a/b'");
-  refused(names, "contains no recordings");
-  refused("", "empty");
-  check_refused_batch(scene, scene.path("none.csv"), {}, "no such file");
+  const std::string twice = "id,file,speed_m_per_s\nr0,r0.csv,0.02\nr0,r1.csv,0.02\n";
+  check_refused_batch(scene, scene.file("bad.csv", twice), {}, "bad.csv:3: column 'id': 'r0' is also in line 2");
+  check_refused_batch(scene, scene.file("none.csv", ""), {}, "empty");
+  check_refused_batch(scene, scene.path("absent.csv"), {}, "no such file");
   check_refused_batch(scene, scene.path(""), {"--quiet"}, "no recording has a speed in a column or in its name");
   CHECK_FALSE(std::filesystem::exists(scene.path("refused")));
 }
@@ -100,23 +91,6 @@ TEST_CASE("a full disk ends a batch with one line, and the folder can be gone on
   }
   CHECK(batch(scene.manifest(), scene.path("small"), {"--resume"}).exit_code == 0);
   CHECK(test::files_in(scene.path("small")) == test::files_in(scene.path("out")));
-}
-
-TEST_CASE("a disk that is really full") {
-  const BatchScene scene(6);
-  std::filesystem::create_directory(scene.path("disk"));
-  const std::string mounted =
-      "mount -t tmpfs -o size=24k none \"$2\" 2>/dev/null || exit 77; exec \"$0\" batch \"$1\" --out \"$2/out\"";
-  const auto run = test::run_program("unshare", {"--map-root-user", "--mount", "sh", "-c", mounted, SLIPFIT_EXECUTABLE,
-                                                 scene.manifest(), scene.path("disk")});
-  CAPTURE(run.err);
-  if (run.exit_code == 77 || run.err.find("unshare") != std::string::npos) {
-    WARN("skipped: this user may not mount a small disk");
-    return;
-  }
-  CHECK(run.exit_code == 2);
-  CHECK(test::lines_in(run.err) == 1);
-  CHECK_THAT(run.err, Catch::Contains("No space left on device"));
 }
 
 TEST_CASE("the folder of another batch is refused, and --resume states the reason") {
