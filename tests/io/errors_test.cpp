@@ -13,29 +13,19 @@ struct Refused {
 
 }  // namespace
 
-TEST_CASE("each unusable content has its own error, in one line with the place") {
+TEST_CASE("unusable contents beside those of docs/errors.md have their own errors") {
   const std::string rows = "0,1\n1,2\n2,1\n3,2\n";
-  std::string backwards = "time,force\n";
-  for (int i = 0; i < 50; ++i) backwards += std::to_string(i * 7 % 50) + "," + std::to_string(i % 3) + "\n";
   const std::vector<Refused> cases = {
-      {"empty", "", "empty_file", "empty"},
       {"blank lines", "\n  \n\t\n", "empty_file", "blank"},
       {"binary", std::string("PK\x07\x04\0\0\0\x08", 8) + "abc", "binary_file", "not a text file"},
       {"no archive", std::string("PK\x03\x04\0\0\0\x08", 8) + "abc", "damaged_container", "is truncated"},
       {"no gzip", "\x1F\x8B stream", "damaged_container", "gzip"},
       {"no TDMS", "TDSm and nothing else", "damaged_container", "TDMS"},
-      {"old workbook", "\xD0\xCF\x11\xE0\xA1\xB1\x1A\xE1 and more", "old_workbook", "save it as .xlsx"},
       {"unprintable", "\x01\x02\x03\x04\x05\x06\x07\x0e\x0f text", "binary_file", "not a text file"},
       {"no encoding at all", "\xC0\xC1\xF8\xFF\xC0\xC1\xF8\xFF,1\n", "binary_file", "in UTF-8, Latin-1 or UTF-16"},
       {"UTF-16 of few digits without a mark", std::string("\x11\x04\x12\x04\x13\x04\x31\0\x32\0", 10), "binary_file",
        "with a byte order mark"},
-      {"prose", "This is a letter.\nIt has no numbers.\n", "no_numeric_column", "no rows of numbers"},
       {"names only", "time,force\n", "no_numeric_column", "no rows of numbers"},
-      {"one row", "time,force\n0,1\n", "too_few_samples", "run7.csv:2: only one row"},
-      {"all NaN", "time,force\n0,nan\n1,nan\n2,NaN\n", "no_number_in_column", "column 2 'force'"},
-      {"backwards", backwards, "time_runs_backwards", "run7.csv:10: time runs backwards in 42 of 50 rows"},
-      {"constant time", "time,force\n3,1\n3,2\n3,1\n", "time_constant", "3 s in all of 3 rows"},
-      {"force unit unknown", "time,force [V]\n" + rows, "unknown_unit", "column 2 'force [V]'"},
       {"time unit unknown", "time [furlong],force\n" + rows, "unknown_unit", "--time-unit"},
   };
   for (const Refused& c : cases) {
@@ -46,8 +36,8 @@ TEST_CASE("each unusable content has its own error, in one line with the place")
   }
 }
 
-TEST_CASE("each impossible option has its own error") {
-  const std::string content = "time,force,state\n0,1,ok\n1,2,ok\n2,1,ok\n3,2,ok\n";
+TEST_CASE("impossible options beside those of docs/errors.md have their own errors") {
+  const std::string content = "time,force\n0,1\n1,2\n2,1\n3,2\n";
   const auto code_of = [&](auto change, std::string_view part) {
     slipfit::ReadOptions options;
     change(options);
@@ -57,24 +47,13 @@ TEST_CASE("each impossible option has its own error") {
     return error.code;
   };
   using Options = slipfit::ReadOptions;
-  CHECK(code_of([](Options& o) { o.force_column = "torque"; }, "the columns are 1 'time', 2 'force', 3 'state'") ==
-        "unknown_column");
   CHECK(code_of([](Options& o) { o.time_column = "9"; }, "no column '9'") == "unknown_column");
   CHECK(code_of([](Options& o) { o.force_column = "0"; }, "--force-column") == "unknown_column");
-  CHECK(code_of([](Options& o) { o.force_column = "state"; }, "contains text") == "column_not_numeric");
   CHECK(code_of([](Options& o) { o.force_unit = "mm"; }, "'mm'") == "unknown_unit");
   CHECK(code_of([](Options& o) { o.time_unit = "N"; }, "'N'") == "unknown_unit");
-  CHECK(code_of([](Options& o) { o.window = {{2.0, 1.0}}; }, "2:1") == "bad_window");
   CHECK(code_of([](Options& o) { o.window = {{1.0, std::nan("")}}; }, "window") == "bad_window");
-  CHECK(code_of([](Options& o) { o.window = {{10.0, 20.0}}; }, "the clock runs from 0 to 3 s") == "window_empty");
   CHECK(code_of([](Options& o) { o.window = {{0.9, 1.1}}; }, "contains 1 sample;") == "window_empty");
   CHECK(code_of([](Options& o) { o.sample_rate_Hz = -4.0; }, "-4") == "bad_sample_rate");
-  CHECK(code_of(
-            [](Options& o) {
-              o.sample_rate_Hz = 4.0;
-              o.time_column = "1";
-            },
-            "both") == "conflicting_options");
   CHECK(code_of(
             [](Options& o) {
               o.time_column = "2";

@@ -225,11 +225,6 @@ def check_hostile(folder):
         "no_part.x3p": (x3p(b"", 0, members={"main.xml": x3p_xml(n)}), "does not contain"),
         "empty.csv": (b"", "empty"),
         "words.csv": (b"a letter to somebody\nof two lines\n", "no rows of numbers"),
-        "no_unit.csv": (b"".join(b"%d,%d\n" % (i, i % 7) for i in range(200)), "--unit"),
-        "no_pitch.csv": (b"".join(b"%d\n" % (i % 7) for i in range(200)), "--pitch"),
-        "constant.csv": (b"x [um],z [um]\n" + b"".join(b"%d,3\n" % i for i in range(200)), "equal"),
-        "few.csv": (b"x [um],z [um]\n" + b"".join(b"%d,%d\n" % (i, i % 5) for i in range(20)), "too few"),
-        "three.csv": (b"x [um],z [um]\n" + b"".join(b"%d,%f\n" % (i, (i % 100) / 50 + 0.001 * (i * 7 % 5)) for i in range(330)), "ridges"),
     }
     for name, (content, part, *options) in files.items():
         (folder / name).write_bytes(content)
