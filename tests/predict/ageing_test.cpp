@@ -18,6 +18,7 @@
 #include "slipfit/sweep.hpp"
 #include "speed_sweep.hpp"
 #include "support/holds.hpp"
+#include "support/recordings.hpp"
 
 using namespace slipfit;
 using test::critical_speed;
@@ -44,11 +45,6 @@ test::SpeedSweep ageing_slider() {
 }
 
 const std::vector<double> kSpeeds{0.01, 0.02, 0.04, 0.08, 0.16};
-
-bool warns(const SweepAnalysis& sweep, const std::string& code) {
-  const Warnings& all = sweep.fit->result.warnings;
-  return std::any_of(all.begin(), all.end(), [&](const Warning& warning) { return warning.code == code; });
-}
 
 /// With a cut-off of 0.3 of the middle stick, and a standard error of it.
 PredictionModel cut_off_example() {
@@ -202,7 +198,7 @@ TEST_CASE("ageing: a sweep tells it, and predicts the spacing between and beyond
     REQUIRE(sweep.fit->result.estimate);
     const ModelEstimate& estimate = *sweep.fit->result.estimate;
     REQUIRE(estimate.ageing);
-    CHECK(warns(sweep, "static_friction_ages"));
+    CHECK(test::warns(sweep.fit->result.warnings, "static_friction_ages"));
     CHECK(estimate.ageing->rate_N == Approx(truth.ageing_N).epsilon(0.1));
     for (std::size_t i = 0; i < kSpeeds.size(); ++i) {
       const Estimate& spacing = sweep.fit->points[i].spacing_left_out_m;

@@ -11,6 +11,7 @@
 #include "slipfit/pipeline.hpp"
 #include "slipfit/predict/prediction.hpp"
 #include "support/holds.hpp"
+#include "support/recordings.hpp"
 
 using namespace slipfit;
 
@@ -25,9 +26,7 @@ PredictionModel fitted_model(std::uint64_t seed, const Slider& slider, const Fri
   options.static_friction_sd_N = 0.02 * friction.difference_N();
   options.seed = seed;
   SimulatedTrace trace = simulate(slider, friction, speed_m_per_s, options);
-  Conditions conditions;
-  conditions.speed_m_per_s = speed_m_per_s;
-  const Recording recording = Recording::create(std::move(trace.time_s), std::move(trace.force_N), conditions).value();
+  const Recording recording = test::recording_of(std::move(trace.time_s), std::move(trace.force_N), speed_m_per_s);
   const Analysis analysis = analyze_and_fit(recording);
   REQUIRE(analysis.fit);
   REQUIRE(analysis.fit->estimate);

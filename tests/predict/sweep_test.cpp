@@ -11,6 +11,7 @@
 #include "slipfit/sweep.hpp"
 #include "speed_sweep.hpp"
 #include "support/holds.hpp"
+#include "support/recordings.hpp"
 
 using namespace slipfit;
 using test::holds;
@@ -177,11 +178,7 @@ TEST_CASE("a sweep names the recording that is not like the others, and one that
   std::vector<SweepEntry> wrong_speed = sound;
   Conditions conditions = sound[1].recording.conditions();
   conditions.speed_m_per_s *= 1.1;
-  const Recording& right = sound[1].recording;
-  wrong_speed[1].recording =
-      Recording::create({right.time_s().begin(), right.time_s().end()}, {right.force().begin(), right.force().end()},
-                        conditions, right.provenance())
-          .value();
+  wrong_speed[1].recording = test::with_conditions(sound[1].recording, conditions);
   CHECK_THAT(message(analyze_sweep(wrong_speed).warnings, "recording_disagrees"),
              Catch::Contains("'" + sound[1].id + "'") && Catch::Contains("stiffness"));
 
@@ -249,31 +246,6 @@ TEST_CASE("the spacing that the other recordings predict for one left out holds 
   }
   CAPTURE(inside, all);
   CHECK(inside >= 16);  // of 20
-}
-
-TEST_CASE("recordings at one speed cannot tell alpha: it is refused, with the reason") {
-  const SweepAnalysis sweep = analyze_sweep(test::record({}, {0.02, 0.02, 0.02}, 11));
-  REQUIRE(sweep.fit);
-  const Parameter& alpha = parameter(sweep, "alpha_s_per_m");
-  CHECK(alpha.status == ParameterStatus::Unidentified);
-  CHECK_FALSE(alpha.estimate.value);
-  CHECK_THAT(alpha.estimate.note, Catch::Contains("too little to determine alpha"));
-  CHECK_FALSE(sweep.fit->result.estimate->speed_dependence);
-}
-
-TEST_CASE("a sweep under Coulomb friction is predicted by Coulomb friction") {
-  test::SpeedSweep truth;
-  truth.f0_N = 4.0;
-  truth.f1_N = 0.0;
-  const SweepAnalysis sweep = analyze_sweep(test::record(truth, {0.01, 0.02, 0.04}, 21));
-  REQUIRE(sweep.fit);
-  CHECK(sweep.fit->result.tier == Tier::Damped);
-  CHECK(parameter(sweep, "alpha_s_per_m").status == ParameterStatus::Unidentified);
-  const PredictionModel model = model_of(sweep);
-  CHECK_FALSE(model.estimate.speed_dependence);
-  const std::vector<double> speeds{0.1};
-  const Estimate spacing = predict_at(model, speeds).rows[0].periodic_displacement_m;
-  CHECK(std::abs(*spacing.value - test::spacing_m(truth, 0.1)) < 4.0 * *spacing.standard_error);
 }
 
 TEST_CASE("where a sweep's fit does not tell the end of stick-slip, its runs do") {

@@ -2,14 +2,12 @@
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <random>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "differences.hpp"
+#include "model/reference_table.hpp"
 #include "slipfit/predict/prediction.hpp"
 
 using namespace slipfit;
@@ -30,39 +28,24 @@ const std::array<Estimate PredictedMotion::*, 8> kQuantities{
     &PredictedMotion::stick_time_s, &PredictedMotion::sticking_degree, &PredictedMotion::periodic_displacement_m,
     &PredictedMotion::force_peak_N, &PredictedMotion::force_trough_N};
 
-std::vector<std::vector<std::string>> reference_rows() {
-  const std::filesystem::path file = std::filesystem::path(SLIPFIT_REFERENCE_DIR) / "velocity_dependent.csv";
-  std::vector<std::vector<std::string>> rows;
-  std::ifstream in(file);
-  for (std::string line; std::getline(in, line);) {
-    if (line.empty() || line[0] == '#' || line[0] == 'z') continue;
-    rows.emplace_back();
-    std::stringstream cells(line);
-    for (std::string cell; std::getline(cells, cell, ',');) rows.back().push_back(cell);
-  }
-  REQUIRE_FALSE(rows.empty());
-  return rows;
-}
-
 }  // namespace
 
 TEST_CASE("with velocity-dependent friction a prediction is the motion that an independent program integrates") {
-  for (const std::vector<std::string>& row : reference_rows()) {
-    const auto number = [&row](std::size_t i) { return std::stod(row.at(i)); };
-    const double onset = number(2) + number(3);
+  for (const auto& row : test::reference_rows("velocity_dependent.csv")) {
+    const double onset = row.at("phi0") + row.at("phi1");
     PredictionModel model;  // k = w_n = V = 1
-    model.estimate = {1.0, 1.0, number(0), number(1) - onset,
-                      {},  1.0, true,      SpeedDependence{number(3) * number(4), number(4)}};
+    model.estimate = {1.0, 1.0, row.at("zeta"), row.at("phi_s") - onset,
+                      {},  1.0, true,           SpeedDependence{row.at("phi1") * row.at("a"), row.at("a")}};
     model.kinetic_friction_N = Estimate{onset, {}, {}, {}};
     const PredictedMotion motion = predicted(model, 1.0);
-    CAPTURE(row);
-    CHECK(motion.period_s.value.has_value() == (row[5] == "1"));
-    if (row[5] != "1") continue;
+    CAPTURE(row.at("zeta"), row.at("phi_s"), row.at("a"));
+    CHECK(motion.period_s.value.has_value() == (row.at("sticks") == 1.0));
+    if (row.at("sticks") != 1.0) continue;
     // The slip is integrated to 1e-9 and read off quintic polynomials: 4e-7 of the motion.
-    CHECK(*motion.slip_time_s.value == Approx(number(6)).epsilon(2e-6));
-    CHECK(*motion.stick_time_s.value == Approx(number(7)).epsilon(2e-6));
-    CHECK(*motion.sticking_degree.value == Approx(number(9)).epsilon(2e-6));
-    CHECK(*motion.periodic_displacement_m.value == Approx(number(10)).epsilon(2e-6));
+    CHECK(*motion.slip_time_s.value == Approx(row.at("slip_time")).epsilon(2e-6));
+    CHECK(*motion.stick_time_s.value == Approx(row.at("stick_time")).epsilon(2e-6));
+    CHECK(*motion.sticking_degree.value == Approx(row.at("sticking_degree")).epsilon(2e-6));
+    CHECK(*motion.periodic_displacement_m.value == Approx(row.at("xi")).epsilon(2e-6));
     CHECK_FALSE(motion.period_s.ci95);
   }
 }
