@@ -15,6 +15,14 @@ PROGRAM = os.environ.get("SLIPFIT_EXECUTABLE", str(PROJECT / "build" / "release"
 MODEL = dict(stiffness=1000.0, natural_frequency=200.0, damping_ratio=0.05, static_friction=6.0, noise=0.01)
 WEAKENING = dict(MODEL, f0=3.0, f1=1.0, alpha=-10.0)
 
+os.environ["MPLBACKEND"] = "Agg"
+
+
+def error_of(call):
+    with pytest.raises(sf.Error) as caught:
+        call()
+    return caught.value
+
 
 @pytest.fixture(scope="session")
 def demo():

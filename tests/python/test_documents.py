@@ -29,9 +29,6 @@ def files(tmp_path_factory):
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: str(page.relative_to(PROJECT)))
 def test_snippets(page, files, tmp_path, monkeypatch, capsys):
-    import matplotlib
-
-    matplotlib.use("Agg")
     shutil.copytree(files, tmp_path / "here", symlinks=True)
     monkeypatch.chdir(tmp_path / "here")
     if page.name == "formats.md":  # reads a batch that the page speaks of

@@ -16,16 +16,10 @@ import time
 
 import numpy as np
 import pytest
-from conftest import MODEL, PROJECT, TESTDATA
+from conftest import MODEL, PROJECT, TESTDATA, error_of
 
 import slipfit as sf
 from slipfit import _slipfit
-
-
-def error_of(call):
-    with pytest.raises(sf.Error) as caught:
-        call()
-    return caught.value
 
 
 DEMO = TESTDATA / "demo.csv"
@@ -126,15 +120,6 @@ def test_values_that_are_no_text_or_number():
         sf.fit(sf.read_recording(DEMO, speed=0.01)).parameters["colour"]
 
 
-def test_what_is_not_finite_is_left_out_and_said(demo):
-    force = demo.force.copy()
-    force[100:103] = np.nan
-    recording = sf.Recording(demo.time, force, speed=0.01)
-    assert len(recording) == len(demo) - 3
-    assert [notice.code for notice in recording.warnings] == ["rows_without_number"]
-    assert sf.fit(recording).status == "stick_slip"
-
-
 def test_recordings_keep_their_samples(demo):
     force = demo.force.copy()
     recording = sf.Recording(demo.time, force, speed=0.01)
@@ -163,14 +148,6 @@ def test_a_torque_over_the_radius_is_the_force(demo):
     np.testing.assert_allclose(recording.force, demo.force, rtol=1e-14)
     error = error_of(lambda: sf.Recording(demo.time, torque, speed=0.01, force_unit="N m"))
     assert error.code == "no_radius" and "radius" in error.remedy
-
-
-def test_strokes_are_one_recording(demo):
-    stroke = demo.force[2000:8000]
-    force = np.concatenate([stroke, -stroke, stroke, -stroke])
-    time_s = np.arange(len(force)) / 5000.0
-    recording = sf.Recording(time_s, force, speed=0.01)
-    assert recording.force.min() > 0 and len(recording.force) < len(force)
 
 
 def test_shortcuts(demo_fit):
@@ -244,9 +221,6 @@ def test_names_from_outside_stay_text(demo):
 
 @pytest.mark.parametrize("kind", ["trace", "spectrum", "cycles", "speed", "map"])
 def test_plots(kind, demo_fit, sweep):
-    import matplotlib
-
-    matplotlib.use("Agg")
     from matplotlib import pyplot
 
     axes = pyplot.figure().add_subplot()
@@ -256,9 +230,6 @@ def test_plots(kind, demo_fit, sweep):
 
 
 def test_every_chart_of_the_page_is_drawn_from_its_data(demo_fit, tmp_path):
-    import matplotlib
-
-    matplotlib.use("Agg")
     from matplotlib import pyplot
 
     axes = {kind: demo_fit.plot(kind) for kind in ("trace", "spectrum", "cycles", "residuals", "evolution", "pairs", "map", "speed", "pattern")}
@@ -469,9 +440,6 @@ def test_a_pickle_keeps_an_assumed_unit_of_time(tmp_path):
 
 
 def test_the_residual_has_a_panel_of_its_own(demo_fit):
-    import matplotlib
-
-    matplotlib.use("Agg")
     axes = demo_fit.plot("trace")
     panel = axes.figure.axes[-1]
     assert [line.get_label() for line in axes.lines] == ["measured", "fit"] and panel.get_ylabel() == "residual [N]"

@@ -12,15 +12,9 @@ import warnings
 import numpy as np
 import pandas as pd
 import pytest
-from conftest import MODEL, PROJECT, TESTDATA, WEAKENING
+from conftest import MODEL, PROJECT, TESTDATA, WEAKENING, error_of
 
 import slipfit as sf
-
-
-def error_of(call):
-    with pytest.raises(sf.Error) as caught:
-        call()
-    return caught.value
 
 
 @pytest.fixture
