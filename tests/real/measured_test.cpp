@@ -17,6 +17,7 @@
 #include "slipfit/pipeline.hpp"
 #include "slipfit/predict/prediction.hpp"
 #include "slipfit/sweep.hpp"
+#include "support/recordings.hpp"
 
 using namespace slipfit;
 
@@ -88,25 +89,6 @@ TEST_CASE("paper on paper, slow: stick-slip with the published stiffness") {
   CHECK(*find(*analysis, "slip_distance_m")->estimate.value == Approx(12e-6).epsilon(0.4));
 }
 
-TEST_CASE("paper on paper, fast and stiff: an oscillation of 35 Hz without straight sticks") {
-  const auto analysis = fit_file("real/colas/colas_k1002_v4300.csv", 4300e-6);
-  if (!analysis) return;
-  CHECK(analysis->motion != MotionClass::StickSlip);
-  REQUIRE(analysis->frequency.quoted.value);
-  CHECK(*analysis->frequency.quoted.value == Approx(35.0).epsilon(0.04));
-}
-
-TEST_CASE("controls are not called stick-slip") {
-  const auto continuous = fit_file("real/colas/colas_k2254_v42.csv", 42e-6);
-  if (continuous) CHECK(continuous->motion != MotionClass::StickSlip);
-  const auto rock = fit_file("real/giacomel/giacomel_velstep3_TR2_exp013_sepiolite.txt", 1e-6);
-  if (rock) CHECK(rock->motion != MotionClass::StickSlip);
-  for (const char* speed : {"1000", "1400", "1800"}) {
-    const auto fast = fit_file("real/fdm/fdm_77g_" + std::string(speed) + "mm_min.csv", std::atof(speed) / 60000.0);
-    if (fast) CHECK(fast->motion != MotionClass::StickSlip);
-  }
-}
-
 TEST_CASE("printed plastic: spacing agrees with the authors' own") {
   std::vector<double> ratios;
   for (auto& row : table(kData / "real/fdm/published_spacing.csv")) {
@@ -133,10 +115,7 @@ TEST_CASE(
   const auto fit_with = [&](double mass_kg) {
     Conditions conditions = untold->conditions();
     conditions.mass_kg = mass_kg;
-    const auto time_s = untold->time_s();
-    const auto force = untold->force();
-    return analyze_and_fit(
-        Recording::create({time_s.begin(), time_s.end()}, {force.begin(), force.end()}, conditions).value());
+    return analyze_and_fit(test::with_conditions(*untold, conditions));
   };
   const Analysis sled = fit_with(0.232);
   const Parameter* const mass = find(sled, "mass_kg");

@@ -7,6 +7,7 @@
 
 #include "examples.hpp"
 #include "report/html/page.hpp"
+#include "support/recordings.hpp"
 
 using Catch::Contains;
 
@@ -206,24 +207,6 @@ TEST_CASE("gaps of the clock and outliers travel with the trace") {
   CHECK(part * recording.duration_s() == Approx(time_s[30]).margin(1e-3));
 }
 
-TEST_CASE("recordings that show nothing still give a page, without a number that is none") {
-  const slipfit::Conditions conditions = sawtooth().conditions();
-  const slipfit::Recording two = slipfit::Recording::create({0.0, 1.0}, {1.0, 1.0}, conditions).value();
-  slipfit::Conditions coefficient = conditions;
-  coefficient.quantity = slipfit::ForceQuantity::FrictionCoefficient;
-  const slipfit::Recording flat =
-      slipfit::Recording::create({0.0, 0.1, 0.2, 0.3, 0.4}, {0.0, 0.0, 0.0, 0.0, 0.0}, coefficient).value();
-  for (const slipfit::Recording* recording : {&two, &flat}) {
-    const slipfit::Analysis analysis = fitted(*recording);
-    CHECK_THAT(page_of(*recording, analysis), Contains("not from a file"));
-    for (const slipfit::PictureFile& picture :
-         report_pictures(*recording, analysis, gather_background(*recording, analysis))) {
-      CAPTURE(picture.name);
-      CHECK_THAT(picture.content, !Contains("nan") && !Contains("inf,") && !Contains(" inf"));
-    }
-  }
-}
-
 TEST_CASE("any number of cycles gives a page (6 cycles once ended the program)") {
   for (int cycles = 1; cycles <= 12; ++cycles) {
     CAPTURE(cycles);
@@ -239,9 +222,7 @@ TEST_CASE("a force that differs in its last digit alone is a flat trace, not a p
     time_s.push_back(0.001 * i);
     force.push_back(i % 2 == 0 ? 0.3 : 0.1 + 0.2);
   }
-  slipfit::Conditions conditions;
-  conditions.speed_m_per_s = 0.01;
-  const auto recording = slipfit::Recording::create(std::move(time_s), std::move(force), conditions).value();
+  const auto recording = test::recording_of(std::move(time_s), std::move(force), 0.01);
   const std::string page = page_of(recording, fitted(recording));
   CHECK(page.size() < 400'000);
   const std::size_t begin = page.find("\"force_low\":");

@@ -38,30 +38,6 @@ TEST_CASE("numbers in the document are read back with every bit") {
   CHECK(document["recording"]["quality"]["rows_without_number"] == 2);
 }
 
-TEST_CASE("the words of the status are those of the interface") {
-  const json parameters = document_of(test::small_recording(), test::full_analysis())["parameters"];
-  CHECK(parameters["stiffness_N_per_m"]["status"] == "identified");
-  CHECK(parameters["friction_difference_N"]["status"] == "bounded");
-  CHECK(parameters["friction_difference_N"]["value"].is_null());  // the middle of its interval is no estimate
-  CHECK(parameters["friction_difference_N"]["ci95"] == json::array({1.0, 2.0}));
-  CHECK(parameters["static_friction_N"]["status"] == "unidentified");
-  CHECK(parameters["natural_frequency_rad_per_s"]["status"] == "fixed");
-  CHECK(parameters["damping_ratio"]["status"] == "weak");
-}
-
-TEST_CASE("an unknown number is null, never a made-up value") {
-  const json document = document_of(test::small_recording(), slipfit::Analysis());
-  CHECK(document["status"] == "undetermined");
-  CHECK(document["frequency"]["value_Hz"].is_null());
-  CHECK(document["frequency"]["ci95_Hz"].is_null());
-  CHECK(document["frequency"]["method"] == "none");
-  CHECK(document["cycles"]["period_s"].is_null());
-  CHECK(document["derived"]["lambda"]["value"].is_null());
-  CHECK(document["derived"]["regime"].is_null());
-  CHECK(document["recording"]["normal_force_N"].is_null());
-  for (const char* const key : {"model", "parameters", "correlation", "timing"}) CHECK_FALSE(document.contains(key));
-}
-
 TEST_CASE("a number that is not finite is null") {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double infinity = std::numeric_limits<double>::infinity();
@@ -94,25 +70,10 @@ TEST_CASE("a friction coefficient is never given as a force") {
   CHECK_FALSE(document_of(test::small_recording(), test::full_analysis())["cycles"].contains("coefficient"));
 }
 
-TEST_CASE("the document lists the warnings in their order") {
-  const json warnings = document_of(test::small_recording(), test::full_analysis())["warnings"];
-  REQUIRE(warnings.size() == 3);
-  CHECK(warnings[0]["code"] == "rows_left_out");
-  CHECK(warnings[1]["code"] == "few_cycles");
-  CHECK(warnings[2]["code"] == "mains_hum");
-}
-
 TEST_CASE("the reader's warnings are among those of the analysis") {
   const auto warnings = slipfit::analyze(test::small_recording()).warnings;
   REQUIRE_FALSE(warnings.empty());
   CHECK(std::ranges::count(warnings, "rows_left_out", &slipfit::Warning::code) == 1);
-}
-
-TEST_CASE("the id is the file name without its ending, or the one that the caller states") {
-  slipfit::JsonOptions options;
-  CHECK(document_of(test::small_recording(), {}, options)["id"] == "run");
-  options.id = "mine";
-  CHECK(document_of(test::small_recording(), {}, options)["id"] == "mine");
 }
 
 TEST_CASE("strings from outside cannot break the document") {
@@ -124,16 +85,6 @@ TEST_CASE("strings from outside cannot break the document") {
   CHECK(document["warnings"].back()["message"].get<std::string>().rfind("a\"b\\c\n\x01", 0) == 0);
 }
 
-TEST_CASE("timing is there only when asked for, and without it the bytes are the same") {
-  slipfit::JsonOptions options;
-  options.timing = true;
-  auto analysis = test::full_analysis();
-  const std::string before = to_json(test::small_recording(), analysis);
-  CHECK(document_of(test::small_recording(), analysis, options)["timing"]["total_s"] == 0.7);
-  analysis.timing.total_s = 99.0;
-  CHECK(to_json(test::small_recording(), analysis) == before);
-}
-
 TEST_CASE("the keys are in the order of the interface") {
   const auto document = nlohmann::ordered_json::parse(to_json(test::small_recording(), test::full_analysis()));
   std::vector<std::string> keys;
@@ -142,10 +93,4 @@ TEST_CASE("the keys are in the order of the interface") {
                                          "recording", "status",  "status_reason", "warnings",     "frequency",
                                          "cycles",    "model",   "parameters",    "correlation",  "level_trend",
                                          "audit",     "derived", "transients",    "coefficients", "tests"});
-}
-
-TEST_CASE("one line for a file with one result a line") {
-  slipfit::JsonOptions options;
-  options.layout = slipfit::JsonLayout::OneLine;
-  CHECK(to_json(test::small_recording(), test::full_analysis(), options).find('\n') == std::string::npos);
 }

@@ -97,13 +97,6 @@ TEST_CASE("a friction coefficient is shown without newtons") {
              Contains("6.250") && Contains("standard deviation 0.062") && !Contains(" N"));
 }
 
-TEST_CASE("control characters of a name cannot move the cursor or forge lines") {
-  const auto recording = test::small_recording(slipfit::ForceQuantity::Force_N, "a\n\x1b[2Jb.csv");
-  const std::string text = to_text(recording, test::full_analysis());
-  CHECK(text.find('\x1b') == std::string::npos);
-  CHECK(text.rfind("a\\n\\u001b[2Jb.csv: stick-slip", 0) == 0);
-}
-
 TEST_CASE("the table of cycles leaves unknown cells empty") {
   const std::string csv = cycles_to_csv(test::small_recording(), test::full_analysis());
   CHECK_THAT(csv,
