@@ -127,14 +127,6 @@ TEST_CASE("a fit that ends its process is tried three times, and touches no othe
              Catch::Contains("\ngroup:g1,crashed,") && Catch::Contains("3 times (signal 9, Killed)"));
 }
 
-TEST_CASE("an exception does not end a batch") {
-  const BatchScene scene(3);
-  BatchOptions options = options_for(scene, "out");
-  options.fit_group = [](const std::string&, const std::vector<ManifestEntry>&) -> Result<BatchFit> { throw 1; };
-  run_ok(options, 2);
-  CHECK_THAT(files_in(scene.path("out")).failures, Catch::Contains("group:g0,internal_error,"));
-}
-
 TEST_CASE("a fit that takes longer than the timeout has failed, and a group has the time of its members") {
   const BatchScene scene(6);  // g0: 0 3, g1: 1 4
   BatchOptions options = options_for(scene, "out");

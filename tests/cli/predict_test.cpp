@@ -5,6 +5,7 @@
 #include "json_of.hpp"
 #include "refusal.hpp"
 #include "run_program.hpp"
+#include "support/velocity_motion.hpp"
 
 using nlohmann::json;
 using test::run_slipfit;
@@ -143,4 +144,21 @@ TEST_CASE("a fit document without correlation, or without F_k, leaves intervals 
   const json normal = predicted({example.folder.file("normal.json", document.dump())}, "20mm/s")["rows"][0];
   const json student = predicted({example.fit}, "20mm/s")["rows"][0];
   CHECK(normal["period_s"]["ci95"][0].get<double>() > student["period_s"]["ci95"][0].get<double>());
+}
+
+TEST_CASE("predict from stated friction that depends on the speed gives the exact cycle") {
+  const json prediction = predicted({"--stiffness", "900", "--natural-frequency", "150", "--damping-ratio", "0.06",
+                                     "--static-friction", "3", "--f0", "1.6", "--f1", "0.4", "--alpha=-8"},
+                                    "10mm/s,40mm/s");
+  const auto slider = slipfit::Slider::create(900.0, 150.0, 0.06).value();
+  const auto friction = slipfit::VelocityFriction::create(3.0, 1.6, 0.4, -8.0).value();
+  for (const std::size_t i : {0U, 1U}) {
+    const auto exact = slipfit::velocity_motion(slider, friction, i == 0 ? 0.01 : 0.04).value();
+    REQUIRE(exact.motion.cycle);
+    const json row = prediction["rows"][i];
+    // Predictions take the fit's slip, good to 1e-6.
+    CHECK(row["period_s"]["value"].get<double>() == Approx(exact.motion.cycle->period_s).epsilon(2e-6));
+    CHECK(row["period_s"]["ci95"].is_null());
+  }
+  CHECK(prediction["critical_speed_m_per_s"]["value"].get<double>() > 0.04);
 }
