@@ -166,7 +166,8 @@ TEST_CASE("where the damping cannot be told from 0 the doubt begins where the ma
   CHECK_FALSE(prediction.rows[1].note.empty());
 }
 
-TEST_CASE("speeds are a list or a logarithmic range with exact ends; a unit that only the last has is that of all") {
+TEST_CASE(
+    "speeds are a list or a logarithmic range with exact ends, and a unit that only the last has is that of all") {
   const auto list = parse_speeds("1,2.5,5 mm/s");
   REQUIRE(list);
   CHECK(list.value().speeds_m_per_s == std::vector{0.001, 0.0025, 0.005});
