@@ -34,6 +34,14 @@ def demo_fit(demo):
     return sf.fit(demo)
 
 
+@pytest.fixture
+def saved(demo_fit, tmp_path):
+    """The document of the demo's fit."""
+    file = tmp_path / "demo.json"
+    file.write_text(demo_fit.to_json())
+    return file
+
+
 @pytest.fixture(scope="session")
 def runs():
     """A sweep of three speeds with friction that falls with the speed."""

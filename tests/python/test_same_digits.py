@@ -74,17 +74,10 @@ def test_cycles_and_curve(demo_fit, tmp_path):
     assert demo_fit.cycles[demo_fit.cycles.used].onset_s.notna().all()
 
 
-@pytest.fixture
-def fit_file(demo_fit, tmp_path):
-    file = tmp_path / "demo.json"
-    file.write_text(demo_fit.to_json())
-    return file
-
-
 @pytest.mark.parametrize("speeds", ["1mm/s:0.5m/s:20", "5mm/s,10mm/s", "0.01"])
-def test_predictions(demo_fit, fit_file, speeds):
-    ours, theirs = demo_fit.predict(speeds).to_dict(), json.loads(said_by_program("predict", fit_file, "--speeds", speeds))
-    assert ours.pop("source") == "demo" and theirs.pop("source") == str(fit_file)
+def test_predictions(demo_fit, saved, speeds):
+    ours, theirs = demo_fit.predict(speeds).to_dict(), json.loads(said_by_program("predict", saved, "--speeds", speeds))
+    assert ours.pop("source") == "demo" and theirs.pop("source") == str(saved)
     assert ours == theirs
 
 
@@ -94,9 +87,9 @@ def test_predictions_at_arrays_are_those_at_texts(demo_fit):
 
 
 @pytest.mark.parametrize("name", [None, "damping_ratio", "stiffness_N_per_m"])
-def test_plans(demo_fit, fit_file, name):
+def test_plans(demo_fit, saved, name):
     ours = demo_fit.plan(name).to_dict()
-    theirs = json.loads(said_by_program("plan", fit_file, *(["--for", name] if name else [])))
+    theirs = json.loads(said_by_program("plan", saved, *(["--for", name] if name else [])))
     ours.pop("source"), theirs.pop("source")
     assert ours == theirs
 

@@ -17,13 +17,6 @@ from conftest import MODEL, PROJECT, TESTDATA, WEAKENING, error_of
 import slipfit as sf
 
 
-@pytest.fixture
-def saved(demo_fit, tmp_path):
-    file = tmp_path / "demo.json"
-    file.write_text(demo_fit.to_json())
-    return file
-
-
 @pytest.fixture(scope="module")
 def folder(runs, tmp_path_factory):
     """A batch of three recordings and one that is missing."""
@@ -249,12 +242,6 @@ def test_every_result_has_a_line_and_a_page_for_notebooks(demo, demo_fit, sweep,
         assert one._repr_html_().startswith("<"), type(one)
     assert repr(sf.compare(demo_fit, demo_fit)).startswith("<slipfit.Comparison No difference is shown in any of ")
     assert "tangential stiffness" in demo_fit.parameters._repr_html_() and "stiffness_N_per_m: 5000.2" in repr(demo_fit.parameters)
-
-
-def test_the_schema_of_the_project_describes_what_is_read(saved):
-    jsonschema = pytest.importorskip("jsonschema")
-    schema = json.loads((PROJECT / "docs" / "fit.schema.json").read_text())
-    jsonschema.validate(sf.read_fit(saved).to_dict(), schema)
 
 
 def test_the_document_says_how_it_was_made(demo, demo_fit, tmp_path):

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <catch2/catch.hpp>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -31,6 +32,11 @@ inline Recording noisy_saw_tooth(const SawTooth& shape, std::size_t samples, dou
   std::vector<double> force = saw_tooth(shape, time_s, generator);
   add_noise(force, noise, generator);
   return recording(time_s, force);
+}
+
+inline void check_frequency(const SpectralFrequency& found, double expected_Hz, double epsilon) {
+  REQUIRE(found.value_Hz);
+  CHECK(*found.value_Hz == Approx(expected_Hz).epsilon(epsilon));
 }
 
 inline bool names_line(const SpectralFrequency& found, double frequency_Hz, const std::string& reason) {
