@@ -22,7 +22,11 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-Recording recorded(std::vector<double> force, double sample_rate_Hz, Conditions conditions) {
+Recording recorded(std::vector<double> force, double sample_rate_Hz, double speed_m_per_s = 0.01,
+                   std::optional<double> drive_path_m = {}) {
+  Conditions conditions;
+  conditions.speed_m_per_s = speed_m_per_s;
+  conditions.drive_path_m = drive_path_m;
   std::vector<double> time_s;
   for (std::size_t i = 0; i < force.size(); ++i) time_s.push_back(static_cast<double>(i) / sample_rate_Hz);
   return Recording::create(std::move(time_s), std::move(force), conditions).value();
@@ -53,10 +57,7 @@ Recording cogging(double ripples, double speed_m_per_s, double ratio, std::optio
     // A second wave over the path, so that no slip of the model is close.
     force.push_back(5.0 + 2.0 * height + 0.4 * std::sin(2.0 * kPi * 0.37 * place) + 0.01 * normal(random));
   }
-  Conditions conditions;
-  conditions.speed_m_per_s = speed_m_per_s;
-  conditions.drive_path_m = drive_path_m;
-  return recorded(std::move(force), kSamplesOfRipple * speed_m_per_s / kPath_m, conditions);
+  return recorded(std::move(force), kSamplesOfRipple * speed_m_per_s / kPath_m, speed_m_per_s, drive_path_m);
 }
 
 /// Low swings of very different size and length on a steady level.
@@ -73,9 +74,7 @@ Recording chatter(double zero_N) {
   }
   std::normal_distribution<double> noise(0.0, 0.005);
   for (double& value : force) value += noise(random);
-  Conditions conditions;
-  conditions.speed_m_per_s = 0.01;
-  return recorded(std::move(force), 1000.0, conditions);
+  return recorded(std::move(force), 1000.0);
 }
 
 /// A body on a spring under Coulomb friction whose static friction scatters from stick to stick, lambda = 1.1: nearly a
@@ -109,9 +108,7 @@ Recording round_slips(double frequency_Hz, double scatter, double duration_s) {
       }
     }
   }
-  Conditions conditions;
-  conditions.speed_m_per_s = 0.01;
-  return recorded(std::move(force), kSampleRate_Hz, conditions);
+  return recorded(std::move(force), kSampleRate_Hz);
 }
 
 Recording hum(double frequency_Hz, double duration_s) {
@@ -121,9 +118,7 @@ Recording hum(double frequency_Hz, double duration_s) {
   for (int i = 0; i < static_cast<int>(duration_s * 2000.0); ++i) {
     force.push_back(3.0 + std::sin(2.0 * kPi * frequency_Hz * i / 2000.0) + 0.003 * normal(random));
   }
-  Conditions conditions;
-  conditions.speed_m_per_s = 0.01;
-  return recorded(std::move(force), 2000.0, conditions);
+  return recorded(std::move(force), 2000.0);
 }
 
 Segmentation falls_of(const Recording& recording) {
@@ -210,9 +205,7 @@ TEST_CASE("multiples of the slips' frequency are not called harmonics of the mai
     const double ring = phase < 0.4 ? 0.1 * std::exp(-20.0 * phase) * std::sin(2.0 * kPi * 25.0 * phase) : 0.0;
     force.push_back(2.0 + (phase < 0.97 ? phase / 0.97 : fall) + ring + 0.002 * normal(random));
   }
-  Conditions conditions;
-  conditions.speed_m_per_s = 1e-3;
-  const Analysis analysis = analyze_and_fit(recorded(std::move(force), 2000.0, conditions));
+  const Analysis analysis = analyze_and_fit(recorded(std::move(force), 2000.0, 1e-3));
   REQUIRE(analysis.frequency.quoted.value);
   for (const auto& lines : {analysis.frequency.lines, analysis.frequency.spectral.suspicious_lines}) {
     for (const SuspiciousLine& line : lines) {
@@ -247,9 +240,7 @@ Segmentation falls(const std::vector<double>& drops, double noise) {
 }
 
 TEST_CASE("whether a fit that determines nothing is loose or worse does not change the answer") {
-  Conditions conditions;
-  conditions.speed_m_per_s = 0.001;
-  const Recording recording = recorded(std::vector<double>(2000, 1.0), 100.0, conditions);
+  const Recording recording = recorded(std::vector<double>(2000, 1.0), 100.0, 0.001);
   Estimates estimates;
   estimates.signals.segmentation = falls(std::vector<double>(20, 1.0), 0.01);
   FitResult fit;

@@ -8,6 +8,7 @@
 
 #include "scoring.hpp"
 #include "slipfit/model/simulation.hpp"
+#include "support/recordings.hpp"
 
 namespace {
 
@@ -119,10 +120,8 @@ TEST_CASE("hum in step with the cycles: nothing is identified (once k was a quar
       const slipfit::SimulationOptions options{
           .duration_s = 0.5, .sample_rate_Hz = 5000.0, .noise_rms_N = 0.0035, .hum_N = hum_N};
       slipfit::SimulatedTrace trace = simulate(slider, friction, speed_m_per_s, options);
-      slipfit::Conditions conditions;
-      conditions.speed_m_per_s = speed_m_per_s;
-      const auto recording =
-          slipfit::Recording::create(std::move(trace.time_s), std::move(trace.force_N), conditions).value();
+      const slipfit::Recording recording =
+          test::recording_of(std::move(trace.time_s), std::move(trace.force_N), speed_m_per_s);
       const slipfit::Analysis analysis = slipfit::analyze_and_fit(recording);
       INFO(speed_m_per_s << " m/s, hum " << hum_N << " N, " << analysis.frequency.quoted.value.value_or(0.0) << " Hz");
       if (analysis.motion != slipfit::MotionClass::StickSlip) continue;
