@@ -8,7 +8,7 @@ FOLDER may also hold manifest.csv and truth.csv, as ../shared/data/synthetic doe
 motion (default for recordings)
     verdict: right kinds of motion. f, x: frequency and spacing V / f, within 5 % of the truth, inside the interval, and absurd (off by a
     factor of 2 or more; any number where there is none). stretch: both ends within 1.5 periods, where part of the recording slides otherwise.
-    k ... l: intervals that contain the truth, of those given; !!: surely wrong, that is `identified` and off by more than the width of the
+    k ... l: intervals that contain the truth, of those given; !!: confidently wrong, that is `identified` and off by more than the width of the
     interval (4 standard errors) and 2 %. extra: terms taken (average T_b, D_c, rise A) that the scene does not have.
 sweeps (default for sweeps)
     fit: sweeps that can be predicted from. bands: spacings at 2 and 4 times the fastest recording inside their interval; half: median
@@ -127,7 +127,7 @@ def describe_motion(row, document, truth):
 
 def summarise_motion(rows):
     wrong, silent, far = ([value for row in rows for value in row[name]] for name in ("wrong", "silent", "m far"))
-    print(f"of {len(wrong)} knowable answers {sum(wrong)} surely wrong, {sum(silent)} of them without a warning; "
+    print(f"of {len(wrong)} answers that the data determine, {sum(wrong)} confidently wrong, {sum(silent)} of them without a warning; "
           f"{sum(far)} of {len(far)} masses identified and off by more than 5 %")
 
 
