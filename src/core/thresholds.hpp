@@ -307,6 +307,9 @@ inline constexpr double kWaveRise = 0.65;
 /// kRingingRise]
 inline constexpr double kSuddenRate = 0.3;
 
+/// Time before a single fall over its own, below which it is none. [1; convention]
+inline constexpr double kLeastAlone = 2.5;
+
 /// Drop of a counted slip over the median drop, at least. [1; convention: docs/formats.md]
 inline constexpr double kCountedDrop = 0.25;
 

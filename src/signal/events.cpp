@@ -229,13 +229,16 @@ constexpr double kSameCount = 1.05;     // ratio of two numbers of falls that ar
 constexpr double kWave = 2.0;           // asymmetry up to which falls may be those of a wave on a ramp
 constexpr double kMostAsymmetry = 6.0;  // sampling and smoothing do not distinguish quicker falls than this
 
-/// A single fall has no rise to the next one and counts as none.
+/// A single fall has no rise to the next one: it counts where the force took its time to get there.
 double score_of(const Detection& detection, double noise) {
-  if (detection.falls.size() < 2) return 0.0;
+  if (detection.falls.empty()) return 0.0;
+  const SeenFall& first = detection.falls.front();
+  const auto length = static_cast<double>(first.trough.at - first.peak.at);
+  if (detection.falls.size() == 1 && static_cast<double>(first.peak.at) < thresholds::kLeastAlone * length) return 0.0;
   constexpr double kClear = 40.0;  // beyond, a larger fall is no better seen
   const double is_prominent = 1.0 / (1.0 / kClear + noise / detection.drop);
   // Rises twice as long as the falls may be those of a wave on a ramp: they say little more than equal ones.
-  const double asymmetry = std::min(detection.asymmetry, kMostAsymmetry);
+  const double asymmetry = detection.falls.size() == 1 ? 1.0 : std::min(detection.asymmetry, kMostAsymmetry);
   constexpr double kRise = kMostAsymmetry / (kMostAsymmetry - 1.0);
   const double sudden = std::max(std::min(asymmetry, kRise), kRise * (asymmetry - 1.0));
   return is_prominent * std::sqrt(static_cast<double>(detection.falls.size())) * sudden;
