@@ -225,7 +225,7 @@ struct AveragingFindings {
 /// samples are not proportional to what it does to one of them: these are fitted once more, as averaged over a step of
 /// the clock.
 Coordinates move_by_averaging(const DampedFit& fit, const BlockFit& blocks, const Smoothing& seen, double step_s) {
-  const Coordinates linear = unstated_variance_s2(fit, seen, step_s) * seen.move_per_s2;
+  Coordinates linear = unstated_variance_s2(fit, seen, step_s) * seen.move_per_s2;
   if (median_slip_s(blocks) > thresholds::kSlipSamples * step_s) return linear;
   Scales scales = blocks.scales();
   scales.sensor_average_s = step_s;

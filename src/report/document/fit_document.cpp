@@ -31,9 +31,9 @@ RecordingPlan plan_of(const JsonNode& recording) {
 
 /// The model, how the recordings with cycles were made, their noise and scatter (medians). Throws also where the
 /// document has no residual in newtons.
-PlanBasis plan_basis_of(const JsonNode& document, ModelEstimate estimate) {
+PlanBasis plan_basis_of(const JsonNode& document, const ModelEstimate& estimate) {
   PlanBasis result;
-  result.estimate = std::move(estimate);
+  result.estimate = estimate;
   if (!document.has("recordings")) {
     result.recordings = {plan_of(document.member("recording"))};
     result.noise_rms_N = document.member("model").member("residual").member("rms_N").positive();
