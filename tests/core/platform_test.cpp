@@ -3,15 +3,17 @@
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
+#include <random>
 #include <string>
 
 using slipfit::platform::processors_of_groups;
 
 namespace {
 
-/// A folder for one test, gone behind it.
+/// A folder for one test, gone behind it: tests run side by side.
 struct Groups {
-  std::filesystem::path root = std::filesystem::temp_directory_path() / "slipfit-control-groups";
+  std::filesystem::path root =
+      std::filesystem::temp_directory_path() / ("slipfit-control-groups-" + std::to_string(std::random_device{}()));
 
   Groups() { std::filesystem::create_directories(root / "slurm/job"); }
   Groups(const Groups&) = delete;
