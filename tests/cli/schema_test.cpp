@@ -135,8 +135,11 @@ TEST_CASE("every kind of document obeys its schema in docs, with no key that the
   for (const char* const schema : {"fit", "predict", "info", "compare", "surface"}) {
     const test::ProgramResult result = documents.validate(schema);
     CAPTURE(schema, result.out, result.err);
-    if (result.exit_code == 77) WARN("skipped: python3-jsonschema is not installed");
-    CHECK((result.exit_code == 0 || result.exit_code == 77));
+    if (result.exit_code == 77) {
+      WARN("skipped: python3-jsonschema is not installed");
+      return;
+    }
+    CHECK(result.exit_code == 0);
   }
   Documents wrong;
   wrong.keep("fit", json{{"schema", "slipfit.fit/1"}});

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "slipfit/io/recording_reader.hpp"
+#include "support/recordings.hpp"
 
 namespace io_test {
 
@@ -87,8 +88,7 @@ inline bool says(const slipfit::Recording& recording, std::initializer_list<std:
 }
 
 inline bool warns(const slipfit::Recording& recording, std::string_view code) {
-  const auto& warnings = recording.provenance().warnings;
-  return std::any_of(warnings.begin(), warnings.end(), [&](const slipfit::Warning& w) { return w.code == code; });
+  return test::warns(recording.provenance().warnings, code);
 }
 
 }  // namespace io_test
