@@ -237,13 +237,14 @@ void put_products_of(const Eigen::Ref<const Eigen::MatrixXd>& lines, Index a, In
 void products_of(const Eigen::Ref<const Eigen::MatrixXd>& lines, Eigen::Ref<RowMajor> products) {
   const Index columns = lines.cols();
   for (Index a = 0; a < columns; a += 2) {  // quicker than a product of matrices of so few columns
-    const bool is_pair = a + 1 < columns;
-    Index b = a;
-    for (; b + 4 <= columns && is_pair; b += 4) put_products_of<2, 4>(lines, a, b, products);
-    for (; b < columns; ++b) {
-      put_products_of<1, 1>(lines, a, b, products);
-      if (is_pair) put_products_of<1, 1>(lines, a + 1, b, products);
+    if (a + 1 == columns) {
+      put_products_of<1, 1>(lines, a, a, products);
+      return;
     }
+    Index b = a;
+    for (; b + 4 <= columns; b += 4) put_products_of<2, 4>(lines, a, b, products);
+    for (; b + 2 <= columns; b += 2) put_products_of<2, 2>(lines, a, b, products);
+    if (b < columns) put_products_of<2, 1>(lines, a, b, products);
   }
 }
 

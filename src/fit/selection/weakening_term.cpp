@@ -266,7 +266,9 @@ WeakeningTrial try_weakening(const FitInput& input, const DampedFit& coulomb, st
         "no slip distance between 0 and (F_s - F_k) / k halves what the slips of Coulomb friction miss";
   }
   if (fitter) trial = with_both(std::move(trial), input, *fitter, coulomb);
-  return trial.candidate.chosen ? compared_with_filter(std::move(trial), input, coulomb) : std::move(trial);
+  // Slips that are no damped oscillation under this law determine nothing that a filter could explain otherwise.
+  const bool may_be_filtered = trial.candidate.chosen && !trial.fit->refused_damping;
+  return may_be_filtered ? compared_with_filter(std::move(trial), input, coulomb) : std::move(trial);
 }
 
 }  // namespace slipfit::fit
