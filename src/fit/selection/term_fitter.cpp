@@ -42,13 +42,6 @@ std::size_t residuals_in(const BlockFit& fit) {
   return count;
 }
 
-bool has_slips(const BlockFit& fit) {
-  for (std::size_t i = 0; i < fit.size(); ++i) {
-    if (!std::isfinite(fit.cycle_sum_of_squares(i))) return false;
-  }
-  return true;
-}
-
 BlockFit carried_to(const std::shared_ptr<const CycleSet>& set, const BlockFit& from) {
   BlockFit to(set, from.scales());
   if (to.level() != from.level()) to = to.with_level(from.level(), from.scales());
@@ -167,8 +160,7 @@ bool solve_own(BlockFit& blocks, const Segmentation& segmentation) {
 /// The solution from these parameters on. Empty where a slip has none.
 std::optional<Minimum> solved_from(BlockFit blocks, const SolveOptions& options) {
   const double sum = solve(blocks, options);
-  const bool is_solved = std::isfinite(sum) && has_slips(blocks);
-  return is_solved ? std::optional(Minimum{std::move(blocks), sum}) : std::nullopt;
+  return std::isfinite(sum) ? std::optional(Minimum{std::move(blocks), sum}) : std::nullopt;
 }
 
 /// Solves to the accuracy that comparing terms needs. A rise after slips is moved to the slips of the solution. Empty
@@ -267,9 +259,11 @@ std::optional<Minimum> TermFitter::behind_filter(const BlockFit& from, std::span
     scales.sensor_lag_s = start.lag_s;
     BlockFit blocks = started(BlockFit(few_, scales), from.parameters.values);
     if (!solve_own(blocks, input_.segmentation)) continue;
-    std::optional<Minimum> settled = roughly_settled(std::move(blocks), held_, kDescentTolerance);
-    if (settled && (!best || explains_more(*settled, *best))) best = std::move(settled);
+    std::optional<Minimum> draft =
+        solved_from(std::move(blocks), {held_, false, true, kDraftIterations, kDraftTolerance, true});
+    if (draft && (!best || explains_more(*draft, *best))) best = std::move(draft);
   }
+  if (best) best = roughly_settled(std::move(best->blocks), held_, kDescentTolerance);
   return best ? near(best->blocks) : std::nullopt;
 }
 

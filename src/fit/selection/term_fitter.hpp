@@ -24,9 +24,6 @@ BlockFit with_free_time(const BlockFit& fit, FreeTime time);
 double sum_of_squares(const BlockFit& fit);
 std::size_t residuals_in(const BlockFit& fit);
 
-/// Returns whether every cycle has a slip. A search that ran to the longest slip distance may end past it.
-bool has_slips(const BlockFit& fit);
-
 /// Returns by how much the AICc of `rich`, a fit with one parameter more, is lower than that of `poor` on the same
 /// samples.
 double gain_on_same_samples(const DampedFit& rich, const DampedFit& poor);
