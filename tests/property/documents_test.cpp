@@ -166,8 +166,11 @@ class Schemas {
     arguments.insert(arguments.end(), files.begin(), files.end());
     const test::ProgramResult result = test::run_program("/usr/bin/python3", arguments);
     CAPTURE(result.out, result.err);
-    if (result.exit_code == 77) WARN("skipped: python3-jsonschema is not installed");
-    CHECK((result.exit_code == 0 || result.exit_code == 77));
+    if (result.exit_code == 77) {
+      WARN("skipped: python3-jsonschema is not installed");
+      return;
+    }
+    CHECK(result.exit_code == 0);
   }
 
   test::TemporaryFolder folder_;
