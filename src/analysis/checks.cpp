@@ -1,7 +1,7 @@
 #include "analysis/conclusions.hpp"
 
 #include <fmt/format.h>
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -15,6 +15,7 @@
 #include "core/thresholds.hpp"
 #include "report/names.hpp"
 #include "signal/comb.hpp"
+#include "signal/least_squares.hpp"
 #include "slipfit/core/range.hpp"
 
 namespace slipfit {
@@ -305,12 +306,12 @@ struct Sine {
 Eigen::VectorXd without_trend(const Series& series) {
   Eigen::MatrixXd trend(series.size(), 2);
   trend << Eigen::VectorXd::Ones(series.size()), series.place;
-  return series.value - trend * trend.colPivHouseholderQr().solve(series.value);
+  return series.value - trend * signal::least_squares(trend, series.value);
 }
 
 Sine sine_in(const Series& series, double waves) {
   const Eigen::MatrixXd columns = signal::line_and_harmonics(series.place, {.frequency_Hz = waves});
-  const Eigen::VectorXd fitted = columns.colPivHouseholderQr().solve(series.value);
+  const Eigen::VectorXd fitted = signal::least_squares(columns, series.value);
   const double all = without_trend(series).squaredNorm();
   const double rest = (series.value - columns * fitted).squaredNorm();
   return {waves, std::hypot(fitted[2], fitted[3]), all > 0.0 ? rest / all : 1.0};

@@ -15,6 +15,7 @@
 #include "core/unknown.hpp"
 #include "signal/comb.hpp"
 #include "signal/events.hpp"
+#include "signal/least_squares.hpp"
 #include "signal/smoothing.hpp"
 
 namespace slipfit {
@@ -63,7 +64,7 @@ std::optional<DampedSine> with_errors(const signal::Samples& samples, double ome
     moves.row(static_cast<Index>(part)) = move.head<2>();
   }
   const double freedom = std::max(1.0, static_cast<double>(columns.rows() - kColumns));
-  const Vector white = residuals.squaredNorm() / freedom * whole.inverse().diagonal();
+  const Vector white = residuals.squaredNorm() / freedom * whole.ldlt().solve(Normal::Identity()).diagonal();
   const Eigen::RowVector2d scatter =
       (count - 1.0) / count * (moves.rowwise() - moves.colwise().mean()).colwise().squaredNorm();
   const auto error = [&](Index i) { return std::sqrt(std::max(white(i), scatter(i))); };
@@ -85,7 +86,7 @@ std::optional<DampedSine> fit_damped_sine(std::span<const double> time_s, std::s
   Eigen::Vector2d at(omega_rad_per_s, decay_per_s);
   for (int step = 0; step < kMostSteps; ++step) {
     const auto [columns, residual] = linearized_at(samples, at(0), at(1));
-    const Eigen::Vector2d move = columns.colPivHouseholderQr().solve(residual).head<2>();
+    const Eigen::Vector2d move = signal::least_squares(columns, residual).head<2>();
     at += move;
     if (!at.allFinite() || std::abs(std::log(at(0) / omega_rad_per_s)) > kFar) return std::nullopt;
     if (move.norm() < kEnough * omega_rad_per_s) return with_errors(samples, at(0), at(1));

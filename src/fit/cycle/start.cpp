@@ -1,6 +1,6 @@
 #include "fit/cycle/start.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -9,6 +9,7 @@
 
 #include "core/thresholds.hpp"
 #include "fit/level/level_terms.hpp"
+#include "signal/least_squares.hpp"
 #include "signal/smoothing.hpp"
 
 namespace slipfit::fit {
@@ -39,7 +40,7 @@ std::vector<double> level_through(const BlockFit& fit, const std::vector<double>
     for (std::size_t j = 0; j < terms; ++j) basis(row, static_cast<Eigen::Index>(j)) = values[j];
     target(row) = (levels[i] - scales.level) / scales.force;
   }
-  const Eigen::VectorXd solution = basis.colPivHouseholderQr().solve(target);
+  const Eigen::VectorXd solution = signal::least_squares(basis, target);
   std::vector<double> coefficients(fit.level().columns(), 0.0);  // no hum to start with
   std::copy_n(solution.data(), terms, coefficients.begin());
   return coefficients;

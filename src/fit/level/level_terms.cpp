@@ -1,12 +1,13 @@
 #include "fit/level/level_terms.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <cmath>
 #include <complex>
 #include <numbers>
 
 #include "core/thresholds.hpp"
 #include "fit/cycle/cycle_model.hpp"
+#include "signal/least_squares.hpp"
 
 namespace slipfit::fit {
 
@@ -14,7 +15,7 @@ namespace {
 
 double sum_of_squares_about(const Eigen::MatrixXd& basis, const Eigen::VectorXd& level, Eigen::Index terms) {
   const Eigen::MatrixXd used = basis.leftCols(terms);
-  return (level - used * used.colPivHouseholderQr().solve(level)).squaredNorm();
+  return (level - used * signal::least_squares(used, level)).squaredNorm();
 }
 
 constexpr std::size_t kMostTerms = 12;
@@ -61,7 +62,7 @@ std::vector<double> smooth_level(const std::vector<double>& time_s, const std::v
                                  std::size_t terms) {
   const Eigen::MatrixXd basis = legendre_basis(time_s, terms);
   const Eigen::Map<const Eigen::VectorXd> values(level.data(), static_cast<Eigen::Index>(level.size()));
-  const Eigen::VectorXd smooth = basis * basis.colPivHouseholderQr().solve(values);
+  const Eigen::VectorXd smooth = basis * signal::least_squares(basis, values);
   return {smooth.data(), smooth.data() + smooth.size()};
 }
 
