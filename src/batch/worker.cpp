@@ -10,7 +10,6 @@
 
 #include "batch/files.hpp"
 #include "batch/pages.hpp"
-#include "io/kept_recordings.hpp"
 #include "report/batch_html.hpp"
 #include "slipfit/background.hpp"
 #include "slipfit/core/printable.hpp"

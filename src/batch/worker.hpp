@@ -7,7 +7,7 @@
 
 #include "batch/result_log.hpp"
 #include "batch/work_list.hpp"
-#include "io/container/kept_file.hpp"
+#include "io/kept_recordings.hpp"
 #include "slipfit/batch/options.hpp"
 #include "slipfit/core/result.hpp"
 

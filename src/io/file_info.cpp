@@ -97,9 +97,6 @@ void add_recording(FileInfo& info, Part part, const LoadedFile& file) {
 
 FileInfo inspect(OpenedFile opened, const std::string& name, const ReadOptions& options) {
   FileInfo info;
-  const TableKind kind = opened.source->table_kind();
-  if (kind == TableKind::Sheet) info.sheets = opened.source->tables();
-  if (kind == TableKind::Variable) info.variables = opened.source->tables();
   info.columns = columns_of(opened.layout);
   Choice choice = choice_for(opened.layout, options, info, name);
   LoadedFile file = load_rows(std::move(opened), std::move(choice), options);
@@ -120,50 +117,41 @@ FileInfo inspect(OpenedFile opened, const std::string& name, const ReadOptions& 
   return info;
 }
 
-FileInfo inspect(const std::filesystem::path& path, const std::string& name, const ReadOptions& options) {
-  check_options(options, name);
-  return inspect(open_file(path, options), name, options);
-}
-
-/// Describes a file that does not contain several tables.
-TableInfo inspect_whole(TextStream file, const std::string& name, const ReadOptions& options) {
-  auto info =
-      with_errors_of_reading(name, [&] { return inspect(open_file(std::move(file), name, options), name, options); });
-  return {"", options, std::move(info)};
-}
-
 std::vector<TableInfo> inspect_each(const std::filesystem::path& path, const std::string& name,
                                     const ReadOptions& options) {
   check_options(options, name);
-  TextStream file = open_plain(path);
-  const TableKind kind = options.sheet || options.variable ? TableKind::One : table_kind_of(file);
+  const Container file = open_container(open_plain(path), name);
+  std::vector<std::string> names;
+  if (!options.sheet && !options.variable) names = file.tables();
   std::vector<TableInfo> tables;
-  if (kind == TableKind::One) {
-    tables.push_back(inspect_whole(std::move(file), name, options));
-  } else {
-    visit_tables(std::move(file), name, [&](const PackedTable& table) {
-      const std::string place = name + " ('" + printable_utf8(table.name) + "')";
-      auto info = with_errors_of_reading(
-          place, [&] { return inspect(open_file(table.open(), place, options), place, options); });
-      TableInfo& added = tables.emplace_back(TableInfo{table.name, options, std::move(info)});
-      (kind == TableKind::Sheet ? added.options.sheet : added.options.variable) = table.name;
-    });
-  }
-  for (TableInfo& table : tables) {
-    if (table.info) {
-      FileInfo known = std::move(table.info).value();
+  const auto add = [&](const std::string& table, const std::string& place, const ReadOptions& selected) {
+    auto info = with_errors_of_reading(place, [&] {
+      FileInfo known = inspect(open_file(file, place, selected), place, selected);
       known.recording.reset();
-      table.info = std::move(known);
-    }
+      return known;
+    });
+    tables.push_back({table, selected, std::move(info)});
+  };
+  if (names.empty()) add("", name, options);
+  for (const std::string& table : names) {
+    ReadOptions selected = options;
+    selected.*file.choice = table;
+    add(table, name + " ('" + printable_utf8(table) + "')", selected);
   }
   return tables;
 }
 
 }  // namespace
 
-Result<FileInfo> inspect_recording(const std::filesystem::path& file, const ReadOptions& options) {
-  const std::string name = name_of_file(file);
-  return with_errors_of_reading(name, [&] { return inspect(file, name, options); });
+Result<FileInfo> inspect_recording(const std::filesystem::path& path, const ReadOptions& options) {
+  const std::string name = name_of_file(path);
+  return with_errors_of_reading(name, [&] {
+    check_options(options, name);
+    const Container file = open_container(open_plain(path), name);
+    FileInfo info = inspect(open_file(file, name, options), name, options);
+    (file.choice == &ReadOptions::sheet ? info.sheets : info.variables) = file.tables();
+    return info;
+  });
 }
 
 Result<std::vector<TableInfo>> inspect_tables(const std::filesystem::path& file, const ReadOptions& options) {

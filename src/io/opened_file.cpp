@@ -90,14 +90,10 @@ void make_forces(Rows& rows, Choice& choice, const Layout& layout) {
 
 }  // namespace
 
-OpenedFile open_file(const std::filesystem::path& path, const ReadOptions& options) {
-  return open_file(open_plain(path), name_of_file(path), options);
-}
-
-OpenedFile open_file(TextStream opened, const std::string& name, const ReadOptions& options) {
+OpenedFile open_file(const Container& container, const std::string& name, const ReadOptions& options) {
   OpenedFile file;
   file.name = name;
-  file.source = TextSource::over(unpacked(std::move(opened), name, {options.sheet, options.variable}), name);
+  file.source = TextSource::over(table_in(container, name, options), name);
   file.layout = layout_of_head(*file.source, file.name);
   return file;
 }
@@ -114,12 +110,6 @@ LoadedFile load_rows(OpenedFile file, Choice choice, const ReadOptions& options)
   make_forces(rows, choice, file.layout);
   return {std::move(file.name), std::move(file.layout), std::move(choice), options,
           std::move(rows),      std::move(warnings)};
-}
-
-LoadedFile load_file(TextStream opened, const std::string& name, double speed_m_per_s, const ReadOptions& options) {
-  OpenedFile file = open_file(std::move(opened), name, options);
-  Choice choice = choose_columns(file.layout, options, speed_m_per_s, file.name);
-  return load_rows(std::move(file), std::move(choice), options);
 }
 
 void check_options(const ReadOptions& options, const std::string& file) {

@@ -23,10 +23,9 @@ struct OpenedFile {
   Layout layout;
 };
 
-/// Opens a file and finds its layout. Errors: those of TextSource, no_numeric_column, line_too_long, empty_file.
-OpenedFile open_file(const std::filesystem::path& path, const ReadOptions& options);
-/// Finds the layout of a file that open_plain opened.
-OpenedFile open_file(TextStream opened, const std::string& name, const ReadOptions& options);
+/// Unpacks the table that the options select and finds its layout; messages show `name`. Errors: those of table_in and
+/// TextSource, no_numeric_column, line_too_long, empty_file.
+OpenedFile open_file(const Container& file, const std::string& name, const ReadOptions& options);
 
 /// A file whose rows are read, and what was asked for.
 struct LoadedFile {
@@ -40,10 +39,6 @@ struct LoadedFile {
 
 /// Reads the rows. With a window of the options that comes before the steps, what lies outside is not even kept.
 LoadedFile load_rows(OpenedFile file, Choice choice, const ReadOptions& options);
-
-/// Does the same for the columns that options and names select, for a file that open_plain opened. Errors: those of
-/// open_file and choose_columns.
-LoadedFile load_file(TextStream opened, const std::string& name, double speed_m_per_s, const ReadOptions& options);
 
 /// The samples as a file of two columns whose rows are read. Errors: length_mismatch, unknown_unit, no_time_column,
 /// conflicting_options, those of check_options.

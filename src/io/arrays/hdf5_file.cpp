@@ -165,6 +165,7 @@ void add_array(hid_t file, const ArrayShape& shape, NumberTable& table) {
 /// The library resolves links in the path of a file that it opens itself; slipfit's has no path. The bytes are not
 /// copied, which the library would do twice: they have to outlive the file, which is never written to.
 hid_t open_in_memory(std::string_view file) {
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   constexpr std::size_t kIncrement = std::size_t{1} << 20U;
   // NOLINTNEXTLINE(cppcoreguidelines-pro-type-const-cast): the interface of HDF5
   auto* const bytes = const_cast<char*>(file.data());
@@ -211,27 +212,21 @@ NumberTable table_of(hid_t file, const TableShape& shape) {
   return table;
 }
 
-}  // namespace
-
 ReadTable read_hdf5(std::string_view file, const std::optional<std::string>& variable) {
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-  const std::uint64_t size = file.size();
   const Handle opened(open_in_memory(file), H5Fclose);
   const Contents contents = contents_of(opened);
   refuse_other_files(contents, variable);
-  const TableShape shape = choose_table(contents.arrays, variable, size);
-  return {table_of(opened, shape), shape.name, names_of(recordable_tables(contents.arrays, size))};
+  const TableShape shape = choose_table(contents.arrays, variable, file.size());
+  return {table_of(opened, shape), shape.name};
 }
 
-void take_all_of_hdf5(std::string_view file, const TakeTable& take) {
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-  const std::uint64_t size = file.size();
+std::vector<std::string> tables_in_hdf5(std::string_view file) {
   const Handle opened(open_in_memory(file), H5Fclose);
-  const Contents contents = contents_of(opened);
-  refuse_other_files(contents, std::nullopt);
-  for (const TableShape& shape : recordable_tables(contents.arrays, size)) {
-    take(shape.name, [&] { return table_of(opened, shape); });
-  }
+  return recordable_tables(contents_of(opened).arrays, file.size());
 }
+
+}  // namespace
+
+const ArrayFormat kHdf5{read_hdf5, tables_in_hdf5};
 
 }  // namespace slipfit::reading

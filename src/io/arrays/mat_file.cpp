@@ -266,19 +266,13 @@ NumberTable table_of(std::string_view file, const TableShape& shape) {
   return table;
 }
 
+ReadTable read_mat(std::string_view file, const std::optional<std::string>& variable) {
+  const TableShape shape = choose_table(arrays_in(file), variable, file.size());
+  return {table_of(file, shape), shape.name};
+}
+
 }  // namespace
 
-ReadTable read_mat(std::string_view file, const std::optional<std::string>& variable) {
-  const std::vector<ArrayShape> arrays = arrays_in(file);
-  const TableShape shape = choose_table(arrays, variable, file.size());
-  return {table_of(file, shape), shape.name, names_of(recordable_tables(arrays, file.size()))};
-}
-
-// NOLINTNEXTLINE(performance-unnecessary-value-param)
-void take_all_of_mat(std::string_view file, const TakeTable& take) {
-  for (const TableShape& shape : recordable_tables(arrays_in(file), file.size())) {
-    take(shape.name, [&] { return table_of(file, shape); });
-  }
-}
+const ArrayFormat kMat{read_mat, [](std::string_view file) { return recordable_tables(arrays_in(file), file.size()); }};
 
 }  // namespace slipfit::reading

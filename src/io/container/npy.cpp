@@ -151,7 +151,7 @@ NumberTable table_of(std::string_view file, const std::string& name) {
 
 }  // namespace
 
-TextStream open_npy(TextStream packed, const std::string& name, const ContainerChoice& /*choice*/) {
+Container open_npy(TextStream packed, const std::string& name) {
   const std::string file = read_all(packed, name);
   TextStream text;
   try {
@@ -159,7 +159,7 @@ TextStream open_npy(TextStream packed, const std::string& name, const ContainerC
   } catch (const Damaged&) {
     throw damaged(name, "the NumPy file is cut off or damaged");
   }
-  return text;
+  return one_table(std::move(text));
 }
 
 }  // namespace slipfit::reading

@@ -285,13 +285,13 @@ std::vector<std::string> names_of(const std::map<std::string, std::size_t>& valu
 
 /// The group with the most values, or the one that was asked for.
 std::string choose_group(const std::map<std::string, std::size_t>& values, const std::string& name,
-                         const ContainerChoice& choice) {
-  if (choice.variable) {
-    if (values.contains(*choice.variable)) return *choice.variable;
+                         const std::optional<std::string>& wanted) {
+  if (wanted) {
+    if (values.contains(*wanted)) return *wanted;
     throw ThrownError(
         {"unknown_variable",
          fmt::format("{}: the TDMS file contains no group '{}' with numbers, only '{}'; choose one with --variable",
-                     name, printable_utf8(*choice.variable),
+                     name, printable_utf8(*wanted),
                      printable_utf8(fmt::format("{}", fmt::join(names_of(values), "', '"))))});
   }
   return std::ranges::max_element(values, [](const auto& a, const auto& b) { return a.second < b.second; })->first;
@@ -326,19 +326,12 @@ TextStream text_of_group(const TdmsContent& tdms, const std::string& group) {
 
 }  // namespace
 
-TextStream open_tdms(TextStream packed, const std::string& name, const ContainerChoice& choice) {
-  const TdmsContent tdms = read_file(std::move(packed), name);
-  const auto values = values_by_group(tdms.channels, name);
-  TextStream text = text_of_group(tdms, choose_group(values, name, choice));
-  text.tables = names_of(values);
-  return text;
-}
-
-void visit_tdms(TextStream packed, const std::string& name, const TableVisitor& visit) {
-  const TdmsContent tdms = read_file(std::move(packed), name);
-  for (const std::string& group : names_of(values_by_group(tdms.channels, name))) {
-    visit({group, [&] { return text_of_group(tdms, group); }});
-  }
+Container open_tdms(TextStream packed, const std::string& name) {
+  const auto tdms = std::make_shared<const TdmsContent>(read_file(std::move(packed), name));
+  const auto values = values_by_group(tdms->channels, name);
+  return {
+      [=](const std::optional<std::string>& group) { return text_of_group(*tdms, choose_group(values, name, group)); },
+      [=] { return names_of(values); }};
 }
 
 }  // namespace slipfit::reading
