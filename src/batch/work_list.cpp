@@ -130,6 +130,7 @@ WorkList list_work(const BatchOptions& options) {
   Entries entries(options.manifest);
   while (const auto entry = entries.next()) collector.add(*entry);
   WorkList list = collector.finish();
+  list.ignored_columns = entries.ignored_columns();
   if (list.rows == 0) throw ThrownError(reading::empty_manifest(printable(options.manifest.string())));
   check_duplicates(options.manifest, list.slots.repeated());
   list.manifest_digest = value_or_throw(digest);

@@ -44,6 +44,7 @@ struct WorkList {
   std::vector<bool> is_mine;  ///< of each slot: it is this shard's
   std::vector<Group> groups;  ///< fitted together; empty where groups are not fitted
   IdIndex slots;              ///< by id
+  std::vector<std::string> ignored_columns;
 
   [[nodiscard]] std::size_t slot_of_group(std::size_t group) const { return rows + group; }
 };
@@ -64,6 +65,7 @@ class Entries {
   explicit Entries(const std::filesystem::path& manifest) : reader_(value_or_throw(ManifestReader::open(manifest))) {}
   /// Returns the next entry, or nothing after the last one.
   std::optional<ManifestEntry> next() { return value_or_throw(reader_.next()); }
+  [[nodiscard]] const std::vector<std::string>& ignored_columns() const { return reader_.ignored_columns(); }
 
  private:
   ManifestReader reader_;
