@@ -112,7 +112,7 @@ FileInfo inspect(OpenedFile opened, const std::string& name, const ReadOptions& 
   if (has_clock && step_s > 0.0) info.sample_rate_Hz = 1.0 / step_s;
   const auto speed = level_of(taken.speed_m_per_s);
   if (speed && speed->is_steady) info.taken.speed_m_per_s = speed->value;
-  info.assumed.insert(info.assumed.end(), part.assumed.begin(), part.assumed.end());
+  info.assumed.insert(info.assumed.end(), part.provenance.assumed.begin(), part.provenance.assumed.end());
   if (!info.refusal) add_recording(info, std::move(part), file);
   return info;
 }

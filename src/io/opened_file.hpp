@@ -40,8 +40,8 @@ struct LoadedFile {
 /// Reads the rows. With a window of the options that comes before the steps, what lies outside is not even kept.
 LoadedFile load_rows(OpenedFile file, Choice choice, const ReadOptions& options);
 
-/// The samples as a file of two columns whose rows are read. Errors: length_mismatch, unknown_unit, no_time_column,
-/// conflicting_options, those of check_options.
+/// The samples as a file of two columns whose rows are read. Errors: length_mismatch, no_time_column, those of
+/// choose_columns and check_options.
 LoadedFile load_samples(Samples samples, const ReadOptions& options);
 
 /// The rows of --rows and --window that cannot be. Errors: bad_window, bad_rows, bad_sample_rate.

@@ -56,11 +56,6 @@ struct Rows {
   /// Row number and line of a sample.
   [[nodiscard]] RowPlace place_of(std::size_t sample) const;
   void cut(const SampleRange& kept);
-  [[nodiscard]] Rows part(const SampleRange& range) const {
-    Rows own = *this;
-    own.cut(range);
-    return own;
-  }
   /// Keeps the samples in the rows and in the window that have a time and a force; counts those without.
   void keep_wanted(const std::optional<RowRange>& wanted_rows, const std::optional<TimeWindow>& window);
   /// Keeps the samples of these indices, ascending.
