@@ -142,7 +142,7 @@ std::optional<Error> mistaken_speed(const Conditions& stated, double moved_m_per
                            file, stated_m_per_s, column, moved_m_per_s, ratio, speed_to_state(stated, moved_m_per_s))};
 }
 
-ThrownError no_speed(const LoadedFile& file) {
+ThrownError no_speed(const OpenedFile& file) {
   if (!file.choice.speed) {
     return ThrownError({"no_speed", file.name + ": --speed is missing: give the driving speed, for example --speed "
                                                 "10mm/s (no column contains it)"});
@@ -163,7 +163,7 @@ void compare_speed(Part& part, double moved_m_per_s, const std::string& what) {
 }
 
 /// The stated speed takes precedence over a column. Errors: no_speed, speed_varies.
-void state_speed(Part& part, const LoadedFile& file) {
+void state_speed(Part& part, const OpenedFile& file) {
   double& speed_m_per_s = part.conditions.speed_m_per_s;
   const auto measured = level_of(part.rows.speed_m_per_s);
   const bool is_wanted = std::exchange(part.conditions.speed_is_known, true);
@@ -186,7 +186,7 @@ void state_speed(Part& part, const LoadedFile& file) {
 }
 
 /// Error: speed_contradicted.
-void compare_with_displacement(Part& part, const LoadedFile& file) {
+void compare_with_displacement(Part& part, const OpenedFile& file) {
   if (part.rows.displacement_m.empty() || !part.conditions.speed_is_known) return;
   auto moved = steady_speed_m_per_s(part.rows);
   if (!moved) return;
@@ -198,7 +198,7 @@ void compare_with_displacement(Part& part, const LoadedFile& file) {
 }
 
 /// The stated normal force takes precedence over a column.
-void state_normal_force(Part& part, const LoadedFile& file) {
+void state_normal_force(Part& part, const OpenedFile& file) {
   const auto level = level_of(part.rows.normal_force_N);
   if (!level) return;
   const std::string name = describe(file.layout, file.choice.normal_force->column);
@@ -255,7 +255,7 @@ void restore_clock(Part& part) {
 }
 
 /// Forces in newtons, and what file and columns say of them. Errors: those of describe_part and of speeds.
-Part interpret(Part part, const LoadedFile& file, const Conditions& conditions) {
+Part interpret(Part part, const OpenedFile& file, const Conditions& conditions) {
   part.conditions = conditions;
   describe_part(part, file);
   state_speed(part, file);
@@ -387,7 +387,7 @@ Part pooled(Part part, std::vector<Stroke> strokes, const std::string& file) {
 
 }  // namespace
 
-Recording build_recording(Part part, const LoadedFile& file, const Conditions& conditions) {
+Recording build_recording(Part part, const OpenedFile& file, const Conditions& conditions) {
   Part one = interpret(std::move(part), file, conditions);
   settle_sign(one);
   std::vector<Stroke> strokes = find_strokes(motion_of(one));
@@ -395,7 +395,7 @@ Recording build_recording(Part part, const LoadedFile& file, const Conditions& c
   return create(std::move(one), file.name);
 }
 
-std::vector<NamedRecording> build_strokes(Part part, const LoadedFile& file, const Conditions& conditions) {
+std::vector<NamedRecording> build_strokes(Part part, const OpenedFile& file, const Conditions& conditions) {
   const Part all = interpret(std::move(part), file, conditions);
   const std::vector<Stroke> strokes = take_strokes(motion_of(all));
   std::vector<std::size_t> wanted;

@@ -64,16 +64,10 @@ Layout layout_of_head(TextSource& source, const std::string& file) {
                                                  "text with a column of times and a column of forces"});
 }
 
-constexpr std::size_t kMostReserved = std::size_t{1} << 27;
-
-std::size_t expected_rows(const OpenedFile& file, const ReadOptions& options) {
-  if (options.window || options.rows || options.where) return 0;
-  return std::min(kMostReserved, static_cast<std::size_t>(1.02 * static_cast<double>(file.source->estimated_size()) /
-                                                          std::max(1.0, file.layout.mean_line_length)));
-}
-
 /// A column of friction coefficients with one of normal forces: their products are the force.
-void make_forces(Rows& rows, Choice& choice, const Layout& layout) {
+void make_forces(OpenedFile& file) {
+  Rows& rows = file.rows;
+  Choice& choice = file.choice;
   if (choice.force.quantity != ForceQuantity::FrictionCoefficient || !choice.normal_force) return;
   std::vector<std::size_t> known;
   for (std::size_t i = 0; i < rows.force.size(); ++i) {
@@ -84,7 +78,7 @@ void make_forces(Rows& rows, Choice& choice, const Layout& layout) {
   if (known.size() < rows.force.size()) rows.keep(known);
   choice.force.quantity = ForceQuantity::Force_N;
   choice.assumed.push_back(
-      fmt::format("Force is the friction coefficient times {}.", describe(layout, choice.normal_force->column)));
+      fmt::format("Force is the friction coefficient times {}.", describe(file.layout, choice.normal_force->column)));
 }
 
 }  // namespace
@@ -92,23 +86,18 @@ void make_forces(Rows& rows, Choice& choice, const Layout& layout) {
 OpenedFile open_file(const Container& container, const std::string& name, const ReadOptions& options) {
   OpenedFile file;
   file.name = name;
+  file.options = options;
   file.source = TextSource::over(table_in(container, name, options), name);
+  file.warnings = file.source->warnings();
   file.layout = layout_of_head(*file.source, file.name);
   return file;
 }
 
-LoadedFile load_rows(OpenedFile file, Choice choice, const ReadOptions& options) {
+void load_rows(OpenedFile& file) {
   const std::vector<std::string>& packed = file.source->assumed();
-  choice.assumed.insert(choice.assumed.begin(), packed.begin(), packed.end());
-  // The steps are counted over the whole file: with one of them the window is cut from it later.
-  const std::optional<TimeWindow> window = options.step ? std::nullopt : options.window;
-  const RowPlan plan{file.layout,  choice, options.sample_rate_Hz.value_or(1.0),
-                     options.rows, window, expected_rows(file, options)};
-  Warnings warnings = file.source->warnings();
-  Rows rows = read_rows(std::move(file.source), plan);
-  make_forces(rows, choice, file.layout);
-  return {std::move(file.name), std::move(file.layout), std::move(choice), options,
-          std::move(rows),      std::move(warnings)};
+  file.choice.assumed.insert(file.choice.assumed.begin(), packed.begin(), packed.end());
+  file.rows = read_rows(file);
+  make_forces(file);
 }
 
 void check_options(const ReadOptions& options, const std::string& file) {
@@ -172,9 +161,9 @@ void scale_by(std::vector<double>& values, double scale) {
 
 }  // namespace
 
-LoadedFile load_samples(Samples samples, const ReadOptions& options) {
+OpenedFile load_samples(Samples samples, const ReadOptions& options) {
   check_samples(samples, options);
-  LoadedFile file;
+  OpenedFile file;
   file.name = samples.name;
   file.options = options;
   file.layout.columns.resize(2);

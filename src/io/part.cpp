@@ -29,12 +29,14 @@ std::string several(std::size_t steps) {
   return fmt::format("the file contains {} one after another", counted(steps, "step"));
 }
 
-Part take_step(Rows rows, const ReadOptions& options, const std::string& file) {
+Part take_step(OpenedFile& file) {
   Part part;
+  Rows& rows = part.rows;
+  rows = std::move(file.rows);
   const auto steps = find_steps(rows);
   Step taken{{0, rows.time_s.size()}};
-  if (options.step) {
-    taken = step_with_number(steps, *options.step, file);
+  if (const auto& wanted = file.options.step) {
+    taken = step_with_number(steps, *wanted, file.name);
     part.assume(
         fmt::format("Only step {} was read ({}; {}).", taken.number, rows_of(rows, taken), several(steps.size())));
   } else if (steps.size() > 1 && are_one_recording(rows, steps)) {
@@ -49,7 +51,6 @@ Part take_step(Rows rows, const ReadOptions& options, const std::string& file) {
     part.assume(fmt::format("Step {} is the recording ({}).", taken.number, rows_of(rows, taken)));
   }
   rows.cut(taken);
-  part.rows = std::move(rows);
   return part;
 }
 
@@ -126,7 +127,7 @@ Warnings warn_of_rows(const Part& part) {
 }
 
 /// Error: unread_numbers.
-void check_unread(const Rows& rows, const LoadedFile& file) {
+void check_unread(const Rows& rows, const OpenedFile& file) {
   if (!rows.unread) return;
   const bool is_time = file.choice.time && rows.unread->column == file.choice.time->column;
   throw ThrownError(
@@ -139,7 +140,7 @@ void check_unread(const Rows& rows, const LoadedFile& file) {
 }
 
 /// Nothing, or next to nothing, in what was asked for. Errors: window_empty, part_empty.
-void check_extent(const Rows& rows, const LoadedFile& file) {
+void check_extent(const Rows& rows, const OpenedFile& file) {
   if (rows.time_s.size() >= 2) return;
   const std::string held = counted(rows.time_s.size(), "sample");
   if (file.options.window && rows.clock) {
@@ -159,7 +160,7 @@ void check_extent(const Rows& rows, const LoadedFile& file) {
 }
 
 /// Error: time_too_coarse.
-void check_stamps(const Part& part, const LoadedFile& file) {
+void check_stamps(const Part& part, const OpenedFile& file) {
   if (!file.choice.time || rows_per_stamp(part) < kTooCoarse) return;
   throw ThrownError({"time_too_coarse",
                      fmt::format("{}:{}: {} rows share each time in {} on average, so the clock is coarser than the "
@@ -169,7 +170,7 @@ void check_stamps(const Part& part, const LoadedFile& file) {
 }
 
 /// About the file and this part of it, in words.
-std::vector<std::string> sentences_of(const Part& part, const LoadedFile& file) {
+std::vector<std::string> sentences_of(const Part& part, const OpenedFile& file) {
   const Rows& rows = part.rows;
   const ReadOptions& options = file.options;
   std::vector<std::string> sentences = file.choice.assumed;
@@ -195,7 +196,7 @@ std::vector<std::string> sentences_of(const Part& part, const LoadedFile& file) 
 }
 
 /// Errors: those of describe_part.
-void check_part(const Part& part, const LoadedFile& file) {
+void check_part(const Part& part, const OpenedFile& file) {
   const Rows& rows = part.rows;
   check_unread(rows, file);
   const std::string force = describe(file.layout, file.choice.force.column);
@@ -230,9 +231,9 @@ void check_part(const Part& part, const LoadedFile& file) {
 
 }  // namespace
 
-Part take_part(Rows rows, const ReadOptions& options, const std::string& file) {
-  Part part = take_step(std::move(rows), options, file);
-  if (options.step && options.window) part.rows.keep_wanted({}, options.window);
+Part take_part(OpenedFile& file) {
+  Part part = take_step(file);
+  if (file.options.step && file.options.window) part.rows.keep_wanted({}, file.options.window);
   order_by_time(part);
   return part;
 }
@@ -250,7 +251,7 @@ std::vector<Part> take_segments(const Rows& rows) {
   return segments;
 }
 
-void describe_part(Part& part, const LoadedFile& file) {
+void describe_part(Part& part, const OpenedFile& file) {
   Provenance& provenance = part.provenance;
   provenance.rows_without_number = part.rows.without_number;
   check_part(part, file);

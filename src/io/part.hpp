@@ -22,14 +22,14 @@ struct Part {
 };
 
 /// The step that was asked for, or the main one of several that are no one recording; of that the window; of that the
-/// samples whose time does not run backwards. Error: unknown_step.
-Part take_part(Rows rows, const ReadOptions& options, const std::string& file);
+/// samples whose time does not run backwards. The rows are no longer in the file. Error: unknown_step.
+Part take_part(OpenedFile& file);
 
 /// The stretches of one speed each, in every step of the file.
 std::vector<Part> take_segments(const Rows& rows);
 
 /// Adds the counts, assumptions and warnings of the file to those of the part. Errors: unread_numbers,
 /// time_runs_backwards, window_empty, part_empty, no_number_in_column, too_few_samples, time_constant, time_too_coarse.
-void describe_part(Part& part, const LoadedFile& file);
+void describe_part(Part& part, const OpenedFile& file);
 
 }  // namespace slipfit::reading

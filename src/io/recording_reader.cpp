@@ -18,7 +18,7 @@ namespace {
 
 using namespace reading;
 
-std::vector<NamedRecording> build_segments(const Rows& rows, const LoadedFile& file, const Conditions& conditions) {
+std::vector<NamedRecording> build_segments(const Rows& rows, const OpenedFile& file, const Conditions& conditions) {
   std::vector<NamedRecording> recordings;
   for (Part& part : take_segments(rows)) {
     recordings.push_back(
@@ -32,10 +32,10 @@ std::vector<NamedRecording> build_segments(const Rows& rows, const LoadedFile& f
            ": neither a column of speeds nor steps give several sections of constant speed; leave out --segments"});
 }
 
-std::vector<NamedRecording> take_apart(LoadedFile file, const Conditions& conditions) {
+std::vector<NamedRecording> take_apart(OpenedFile file, const Conditions& conditions) {
   const ReadOptions& options = file.options;
   if (options.pieces == Pieces::Segments && !options.step) return build_segments(file.rows, file, conditions);
-  Part part = take_part(std::move(file.rows), options, file.name);
+  Part part = take_part(file);
   if (options.pieces == Pieces::Segments) return build_segments(part.rows, file, conditions);
   if (options.pieces != Pieces::One) return build_strokes(std::move(part), file, conditions);
   std::vector<NamedRecording> one;
@@ -46,8 +46,9 @@ std::vector<NamedRecording> take_apart(LoadedFile file, const Conditions& condit
 std::vector<NamedRecording> pieces_in(const Container& container, const std::string& name, const Conditions& conditions,
                                       const ReadOptions& options) {
   OpenedFile file = open_file(container, name, options);
-  Choice choice = choose_columns(file.layout, options, conditions.speed_m_per_s, name);
-  return take_apart(load_rows(std::move(file), std::move(choice), options), conditions);
+  file.choice = choose_columns(file.layout, options, conditions.speed_m_per_s, name);
+  load_rows(file);
+  return take_apart(std::move(file), conditions);
 }
 
 }  // namespace

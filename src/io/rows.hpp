@@ -3,28 +3,16 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <vector>
 
 #include "core/sample_range.hpp"
 #include "io/cells.hpp"
 #include "io/columns.hpp"
-#include "io/layout.hpp"
-#include "io/text_source.hpp"
+#include "slipfit/core/digest.hpp"
 #include "slipfit/io/read_options.hpp"
 
 namespace slipfit::reading {
-
-/// The values to read from each line.
-struct RowPlan {
-  const Layout& layout;
-  const Choice& choice;
-  std::optional<double> sample_rate_Hz;  ///< the clock where no time column is chosen
-  std::optional<RowRange> rows;
-  std::optional<TimeWindow> window;  ///< what lies outside is not even kept
-  std::size_t expected_rows = 0;
-};
 
 /// The position of a sample in the file; it is valid for later samples up to the next position.
 struct RowPlace {
@@ -73,7 +61,10 @@ inline constexpr std::array<SideColumn, 4> kSideColumns{{{&Choice::displacement,
                                                          {&Choice::speed, &Rows::speed_m_per_s, true},
                                                          {&Choice::step, &Rows::step, false}}};
 
-/// One pass, 16 bytes a sample, 8 for each further column. Throws what TextLines throws.
-Rows read_rows(std::unique_ptr<TextSource> source, const RowPlan& plan);
+struct OpenedFile;
+
+/// Reads the rows of a file whose columns are chosen, in one pass: 16 bytes a sample, 8 for each further column. Throws
+/// what TextLines throws.
+Rows read_rows(OpenedFile& file);
 
 }  // namespace slipfit::reading
