@@ -42,11 +42,7 @@ std::optional<RunRecord> check_folder(const std::filesystem::path& folder, const
 /// Returns true if the folder holds a result of the batch of this record.
 bool has_results(const std::filesystem::path& folder, const RunRecord& record);
 
-}  // namespace slipfit::batch
-
 // The files of a finished batch: results.jsonl, summary.csv and failures.csv, in the manifest's order.
-
-namespace slipfit::batch {
 
 /// A line of the log, and what the manifest says about its recording or group.
 struct LoggedResult {

@@ -33,9 +33,6 @@ std::string name_of_file(const std::filesystem::path& file);
 /// "1 row", "12 rows".
 std::string counted(std::size_t count, std::string_view noun);
 
-/// Returns the error of a cell of a manifest: "bad value 'x', expected a number".
-std::optional<Error> refusal(const char* code, const std::string& cell, const char* expected);
-
 /// Returns an error about a manifest; messages show `file`.
 Error duplicate_id(const std::string& file, const ManifestEntry& entry, std::size_t first_line);
 Error empty_manifest(const std::string& file);

@@ -69,12 +69,8 @@ Container open_container(TextStream file, const std::string& name);
 /// table of another kind of file.
 TextStream table_in(const Container& container, const std::string& name, const ReadOptions& options);
 
-}  // namespace slipfit::reading
-
 // What each kind of container takes to become text. Without the library that a kind needs the error is not_built_in and
 // names Debian's package.
-
-namespace slipfit::reading {
 
 /// A function that opens a container. `packed` contains the bytes of the whole file, which are read once; messages show
 /// `name`.

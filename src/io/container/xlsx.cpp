@@ -237,10 +237,6 @@ std::string sheet_text(const pugi::xml_document& sheet, const Workbook& workbook
   return text;
 }
 
-}  // namespace
-
-namespace {
-
 std::vector<std::string> names_of(const std::vector<Sheet>& sheets, const std::string& name) {
   if (sheets.empty()) throw damaged(name, "the workbook contains no sheet");
   std::vector<std::string> names;
