@@ -90,7 +90,7 @@ void check_duplicates(const std::filesystem::path& manifest, const std::set<Dige
   while (const auto entry = entries.next()) {
     if (!suspects.contains(digest_of(entry->id))) continue;
     const auto [first, is_new] = lines.try_emplace(entry->id, entry->line);
-    if (!is_new) throw ThrownError(reading::duplicate_id(printable(manifest.string()), *entry, first->second));
+    if (!is_new) throw reading::duplicate_id(printable(manifest.string()), *entry, first->second);
   }
 }
 
@@ -118,7 +118,7 @@ WorkList list_work(const BatchOptions& options) {
   while (const auto entry = entries.next()) collector.add(*entry);
   WorkList list = collector.finish();
   list.ignored_columns = entries.ignored_columns();
-  if (list.rows == 0) throw ThrownError(reading::empty_manifest(printable(options.manifest.string())));
+  if (list.rows == 0) throw reading::empty_manifest(printable(options.manifest.string()));
   check_duplicates(options.manifest, collector.repeated());
   list.manifest_digest = value_or_throw(digest);
   return list;

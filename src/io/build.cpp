@@ -129,17 +129,18 @@ std::string speed_to_state(const Conditions& stated, double moved_m_per_s) {
   return fmt::format("{:.6g}m/s", moved_m_per_s);
 }
 
-/// A stated speed that a displacement contradicts by the factor of a mistaken unit.
-std::optional<Error> mistaken_speed(const Conditions& stated, double moved_m_per_s, const std::string& column,
-                                    const std::string& file) {
+/// Error: speed_contradicted, where a displacement contradicts the stated speed by the factor of a mistaken unit.
+void check_unit_of_speed(const Conditions& stated, double moved_m_per_s, const std::string& column,
+                         const std::string& file) {
   const double stated_m_per_s = stated.speed_m_per_s;
   const double ratio = std::max(stated_m_per_s / moved_m_per_s, moved_m_per_s / stated_m_per_s);
   const auto is_near = [&](double factor) { return std::abs(ratio / factor - 1.0) < kStatedTolerance; };
-  if (std::none_of(kUnitFactors.begin(), kUnitFactors.end(), is_near)) return std::nullopt;
-  return Error{"speed_contradicted",
-               fmt::format("{}: the speed is {:.6g} m/s, but {} moves at {:.6g} m/s; the factor {:.4g} suggests "
-                           "another unit; give --speed {}, or correct the unit in the name of that column",
-                           file, stated_m_per_s, column, moved_m_per_s, ratio, speed_to_state(stated, moved_m_per_s))};
+  if (std::none_of(kUnitFactors.begin(), kUnitFactors.end(), is_near)) return;
+  throw ThrownError(
+      {"speed_contradicted",
+       fmt::format("{}: the speed is {:.6g} m/s, but {} moves at {:.6g} m/s; the factor {:.4g} suggests another unit; "
+                   "give --speed {}, or correct the unit in the name of that column",
+                   file, stated_m_per_s, column, moved_m_per_s, ratio, speed_to_state(stated, moved_m_per_s))});
 }
 
 ThrownError no_speed(const OpenedFile& file) {
@@ -191,8 +192,7 @@ void compare_with_displacement(Part& part, const OpenedFile& file) {
   auto moved = steady_speed_m_per_s(part.rows);
   if (!moved) return;
   const std::string name = describe(file.layout, file.choice.displacement->column);
-  if (auto error = mistaken_speed(part.conditions, *moved->value, name, file.name))
-    throw ThrownError(*std::move(error));
+  check_unit_of_speed(part.conditions, *moved->value, name, file.name);
   compare_speed(part, *moved->value, name);
   part.provenance.moved_m_per_s = std::move(moved);
 }

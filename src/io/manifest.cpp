@@ -637,31 +637,28 @@ const std::vector<std::string>& ManifestReader::ignored_columns() const {
 
 Result<std::vector<ManifestEntry>> read_manifest_group(const std::filesystem::path& file,
                                                        const std::optional<std::string>& group) {
-  const std::string name = name_of_file(file);
-  auto reader = ManifestReader::open(file);
-  if (!reader) return reader.error();
-  ManifestReader rows = std::move(reader).value();
-  std::vector<ManifestEntry> entries;
-  std::unordered_map<std::string, std::size_t> line_of_id;
-  std::set<std::string> groups;
-  for (;;) {
-    auto next = rows.next();
-    if (!next) return next.error();
-    std::optional<ManifestEntry> entry = std::move(next).value();
-    if (!entry) break;
-    if (!entry->group.empty()) groups.insert(entry->group);
-    if (group && entry->group != *group) continue;
-    const auto [first, is_new] = line_of_id.emplace(entry->id, entry->line);
-    if (!is_new) return duplicate_id(name, *entry, first->second);
-    entries.push_back(*std::move(entry));
-  }
-  if (!entries.empty()) return entries;
-  if (!group) return empty_manifest(name);
-  if (groups.empty()) {
-    return Error{"unknown_group", name + ": no recording has a group; add a column 'group', or leave out --group"};
-  }
-  return Error{"unknown_group", fmt::format("{}: no recording of group '{}', expected one of: {}", name,
-                                            printable_utf8(*group), fmt::join(groups, ", "))};
+  return result_of([&] {
+    const std::string name = name_of_file(file);
+    ManifestReader rows = value_or_throw(ManifestReader::open(file));
+    std::vector<ManifestEntry> entries;
+    std::unordered_map<std::string, std::size_t> line_of_id;
+    std::set<std::string> groups;
+    while (auto entry = value_or_throw(rows.next())) {
+      if (!entry->group.empty()) groups.insert(entry->group);
+      if (group && entry->group != *group) continue;
+      const auto [first, is_new] = line_of_id.emplace(entry->id, entry->line);
+      if (!is_new) throw duplicate_id(name, *entry, first->second);
+      entries.push_back(*std::move(entry));
+    }
+    if (!entries.empty()) return entries;
+    if (!group) throw empty_manifest(name);
+    if (groups.empty()) {
+      throw ThrownError(
+          {"unknown_group", name + ": no recording has a group; add a column 'group', or leave out --group"});
+    }
+    throw ThrownError({"unknown_group", fmt::format("{}: no recording of group '{}', expected one of: {}", name,
+                                                    printable_utf8(*group), fmt::join(groups, ", "))});
+  });
 }
 
 Result<ManifestEntry> entry_from_cells(std::vector<NamedCell> cells) {

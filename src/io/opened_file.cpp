@@ -96,7 +96,7 @@ OpenedFile open_file(const Container& container, const std::string& name, const 
 void load_rows(OpenedFile& file) {
   const std::vector<std::string>& packed = file.source->assumed();
   file.choice.assumed.insert(file.choice.assumed.begin(), packed.begin(), packed.end());
-  file.rows = read_rows(file);
+  file.rows = read_rows(std::move(file.source), file.layout, file.choice, file.options);
   make_forces(file);
 }
 

@@ -9,7 +9,6 @@
 
 #include "core/word_list.hpp"
 #include "io/cells.hpp"
-#include "io/opened_file.hpp"
 #include "io/text_lines.hpp"
 
 namespace slipfit::reading {
@@ -48,28 +47,27 @@ std::vector<WantedColumn> wanted_columns(const Choice& choice) {
   return wanted;
 }
 
-std::size_t expected_rows(const OpenedFile& file) {
+std::size_t expected_rows(const TextSource& source, const Layout& layout, const ReadOptions& options) {
   constexpr std::size_t kMost = std::size_t{1} << 27U;
-  if (file.options.window || file.options.rows || file.options.where) return 0;
-  return std::min(kMost, static_cast<std::size_t>(1.02 * static_cast<double>(file.source->estimated_size()) /
-                                                  std::max(1.0, file.layout.mean_line_length)));
+  if (options.window || options.rows || options.where) return 0;
+  return std::min(kMost, static_cast<std::size_t>(1.02 * static_cast<double>(source.estimated_size()) /
+                                                  std::max(1.0, layout.mean_line_length)));
 }
 
 class RowReader {
  public:
-  explicit RowReader(const OpenedFile& file)
-      : layout_(file.layout),
-        choice_(file.choice),
-        wanted_rows_(file.options.rows),
-        window_(file.options.step ? std::nullopt : file.options.window),
-        sample_rate_Hz_(file.options.sample_rate_Hz.value_or(1.0)),
-        dialect_(file.layout.dialect),
-        wanted_(wanted_columns(file.choice)),
-        is_clock_(file.choice.time && file.choice.time->is_clock) {
+  RowReader(const Layout& layout, const Choice& choice, const ReadOptions& options, std::size_t expected_rows)
+      : layout_(layout),
+        choice_(choice),
+        wanted_rows_(options.rows),
+        window_(options.step ? std::nullopt : options.window),
+        sample_rate_Hz_(options.sample_rate_Hz.value_or(1.0)),
+        dialect_(layout.dialect),
+        wanted_(wanted_columns(choice)),
+        is_clock_(choice.time && choice.time->is_clock) {
     reading_.values.fill(kNoValue);
-    const std::size_t rows = expected_rows(file);
-    rows_.time_s.reserve(rows);
-    rows_.force.reserve(rows);
+    rows_.time_s.reserve(expected_rows);
+    rows_.force.reserve(expected_rows);
   }
 
   void add(const char* line, unsigned number) {
@@ -313,12 +311,13 @@ void Rows::keep_wanted(const std::optional<RowRange>& wanted_rows, const std::op
   if (kept.size() < time_s.size()) keep(kept);
 }
 
-Rows read_rows(OpenedFile& file) {
-  RowReader reader(file);
-  const std::shared_ptr<const Digester> digester = file.source->digester();
-  TextLines lines(std::move(file.source));
+Rows read_rows(std::unique_ptr<TextSource> source, const Layout& layout, const Choice& choice,
+               const ReadOptions& options) {
+  RowReader reader(layout, choice, options, expected_rows(*source, layout, options));
+  const std::shared_ptr<const Digester> digester = source->digester();
+  TextLines lines(std::move(source));
   while (const char* line = lines.next()) {
-    if (lines.number() >= file.layout.first_data_line) reader.add(line, lines.number());
+    if (lines.number() >= layout.first_data_line) reader.add(line, lines.number());
   }
   Rows rows = reader.finish();
   rows.digest = digester->digest();

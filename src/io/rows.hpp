@@ -3,12 +3,15 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "core/sample_range.hpp"
 #include "io/cells.hpp"
 #include "io/columns.hpp"
+#include "io/layout.hpp"
+#include "io/text_source.hpp"
 #include "slipfit/core/digest.hpp"
 #include "slipfit/io/read_options.hpp"
 
@@ -61,10 +64,8 @@ inline constexpr std::array<SideColumn, 4> kSideColumns{{{&Choice::displacement,
                                                          {&Choice::speed, &Rows::speed_m_per_s, true},
                                                          {&Choice::step, &Rows::step, false}}};
 
-struct OpenedFile;
-
-/// Reads the rows of a file whose columns are chosen, in one pass: 16 bytes a sample, 8 for each further column. Throws
-/// what TextLines throws.
-Rows read_rows(OpenedFile& file);
+/// Reads the chosen columns in one pass: 16 bytes a sample, 8 for each further column. Throws what TextLines throws.
+Rows read_rows(std::unique_ptr<TextSource> source, const Layout& layout, const Choice& choice,
+               const ReadOptions& options);
 
 }  // namespace slipfit::reading

@@ -61,7 +61,7 @@ constexpr NumberType<Code> number_type(Code code) {
 template <class Types, class Code>
 constexpr auto find_type(const Types& types, const Code& code) {
   const auto found = std::ranges::find_if(types, [&](const auto& type) { return type.code == code; });
-  return found == std::ranges::end(types) ? nullptr : &*found;
+  return found == types.end() ? nullptr : &*found;
 }
 
 }  // namespace slipfit::reading
