@@ -47,8 +47,11 @@ std::size_t count_negative(std::span<const double> force) {
   return static_cast<std::size_t>(std::ranges::count_if(force, [](double f) { return f < 0.0; }));
 }
 
-}  // namespace
+/// The direction in which the force repeatedly changes much faster than in the other.
+enum class SuddenChanges { None, Falls, Rises };
 
+/// Returns the direction of sudden changes, by the skewness of the changes over some time: far from 0 with one sign,
+/// whichever sixteenth of the trace is left out.
 SuddenChanges sudden_changes(std::span<const double> force) {
   constexpr double kSkewness = 0.3;           // -0.3 for cycles near the limit of stick-slip, 0 for waves and noise
   constexpr std::size_t kLeastChanges = 512;  // in the trace, one behind the other: that of noise is below 0.2
@@ -67,16 +70,6 @@ SuddenChanges sudden_changes(std::span<const double> force) {
   }
   return SuddenChanges::None;
 }
-
-bool is_mostly_negative(std::span<const double> force) {
-  return 2 * count_negative(force) > force.size();
-}
-
-bool is_negative_throughout(std::span<const double> force) {
-  return 10 * count_negative(force) >= 9 * force.size();
-}
-
-namespace {
 
 Motion motion_of(const Part& part) {
   return {part.rows.force, part.rows.displacement_m};
@@ -275,7 +268,7 @@ void turn_sign(Part& part, const char* reason) {
 /// slowly and falls suddenly. One that is negative for the most part has it where that shows.
 void settle_sign(Part& part) {
   const std::vector<double>& force = part.rows.force;
-  if (!is_mostly_negative(force)) return;
+  if (2 * count_negative(force) <= force.size()) return;
   const SuddenChanges changes = sudden_changes(force);
   if (!is_negative_throughout(force)) {
     const bool is_turned = changes == SuddenChanges::Rises && find_strokes(motion_of(part)).empty();
@@ -386,6 +379,10 @@ Part pooled(Part part, std::vector<Stroke> strokes, const std::string& file) {
 }
 
 }  // namespace
+
+bool is_negative_throughout(std::span<const double> force) {
+  return 10 * count_negative(force) >= 9 * force.size();
+}
 
 Recording build_recording(Part part, const OpenedFile& file, const Conditions& conditions) {
   Part one = interpret(std::move(part), file, conditions);
