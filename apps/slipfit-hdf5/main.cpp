@@ -1,12 +1,10 @@
 // slipfit-hdf5 mat|hdf5 FILE [VARIABLE]: numbers of a .mat or HDF5 file as CSV on standard output, for slipfit. A
 // program of its own: these libraries take some fifty others with them, and a damaged file that ends them ends nothing
-// else. The first line is "=NAME" of what was read and, behind tabs, the names of all tables, or "!CODE MESSAGE" of
-// what is wrong. slipfit-hdf5 mat-all|hdf5-all FILE: all tables, one after another: a line "=NAME", and for each piece
-// of the CSV its number of bytes in a line, the last one 0; or, instead, a line "!CODE MESSAGE".
+// else. The first line is "=NAME" of what was read, or "!CODE MESSAGE" of what is wrong. slipfit-hdf5
+// mat-tables|hdf5-tables FILE: the names of all tables, parted by tabs, in such a line.
 
 #include <cstdio>
 #include <exception>
-#include <functional>
 #include <new>
 #include <string_view>
 #include <utility>
@@ -31,57 +29,33 @@ int refuse(const std::string& line) {
   return 1;
 }
 
-/// Hands the text on in pieces.
-template <class Write>
-bool copy(NumberTable table, const Write& write_piece) {
-  const auto text = text_of(std::move(table));
+bool write_table(ReadTable read) {
+  bool written = write("=" + read.name + "\n");
+  const auto text = text_of(std::move(read.table));
   std::vector<char> part(std::size_t{64} * 1024);
-  bool written = true;
   while (written) {
     const std::size_t count = text->read(part.data(), part.size());
     if (count == 0) break;
-    written = write_piece(std::string_view(part.data(), count));
+    written = write({part.data(), count});
   }
   return written;
 }
 
 /// Names with tabs or line ends are left out: no choice of a user could be that.
-std::string line_of_names(const std::string& first, const std::vector<std::string>& others) {
-  std::string line = "=" + first;
-  for (const std::string& name : others) {
-    if (name.find_first_of("\t\n") == std::string::npos) line += "\t" + name;
+bool write_names(const std::vector<std::string>& names) {
+  std::string line = "=";
+  for (const std::string& name : names) {
+    if (name.find_first_of("\t\n") == std::string::npos) line += (line.size() == 1 ? "" : "\t") + name;
   }
-  return line + "\n";
-}
-
-int read_one(std::string_view kind, std::string_view file, const std::optional<std::string>& variable) {
-  auto* const read = kind == "mat" ? read_mat : read_hdf5;
-  ReadTable found = read(file, variable);
-  const bool written = write(line_of_names(found.name, found.all)) && copy(std::move(found.table), write);
-  return written && std::fflush(stdout) == 0 ? 0 : 1;
-}
-
-int read_all_tables(std::string_view kind, std::string_view file) {
-  bool written = true;
-  const auto write_piece = [](std::string_view piece) {
-    return write(std::to_string(piece.size()) + "\n") && write(piece);
-  };
-  auto* const take_all = kind == "mat-all" ? take_all_of_mat : take_all_of_hdf5;
-  take_all(file, [&](const std::string& name, const std::function<NumberTable()>& read) {
-    if (!written || name.find('\n') != std::string::npos) return;
-    written = write("=" + name + "\n");
-    try {
-      written = written && copy(read(), write_piece) && write("0\n");
-    } catch (const Refusal& refusal) {
-      written = write("!" + refusal.error().code + " " + refusal.error().message + "\n");
-    }
-  });
-  return written && std::fflush(stdout) == 0 ? 0 : 1;
+  return write(line + "\n");
 }
 
 int run(std::string_view kind, const char* name, const std::optional<std::string>& variable) {
   const std::string_view file = map_only_file(name);
-  return kind.ends_with("-all") ? read_all_tables(kind, file) : read_one(kind, file, variable);
+  const ArrayFormat& format = kind.starts_with("mat") ? kMat : kHdf5;
+  const bool written =
+      kind.ends_with("-tables") ? write_names(format.tables(file)) : write_table(format.read(file, variable));
+  return written && std::fflush(stdout) == 0 ? 0 : 1;
 }
 
 /// Never throws.

@@ -15,19 +15,12 @@
 #include "batch/work_list.hpp"
 #include "core/platform.hpp"
 #include "slipfit/core/printable.hpp"
-#include "slipfit/io/manifest.hpp"
 #include "slipfit/report/fit_document.hpp"
 
 namespace slipfit {
 namespace {
 
 using namespace batch;
-
-/// The record of the batch that is continued, or nothing.
-std::optional<RunRecord> continued_record(const BatchOptions& options, const RunRecord& now) {
-  std::optional<RunRecord> before = check_folder(options.folder, now);
-  return before && !difference(*before, now) ? std::move(before) : std::nullopt;
-}
 
 /// Begins the journal and run.json, in an order that is safe against a kill at any moment: a finished batch stays one
 /// until its results are in the journal, and run.json is there before any other file.
@@ -57,11 +50,10 @@ void report_other_processor(const BatchHooks& hooks, const RunRecord& before, co
                            printable(before.processor), now.processor));
 }
 
-void notify_of_ignored_columns(const BatchOptions& options, const BatchHooks& hooks) {
-  const auto reader = ManifestReader::open(options.manifest);
-  if (!hooks.notify || !reader || reader.value().ignored_columns().empty()) return;
+void notify_of_ignored_columns(const BatchOptions& options, const BatchHooks& hooks, const WorkList& list) {
+  if (!hooks.notify || list.ignored_columns.empty()) return;
   hooks.notify(fmt::format("{}: columns that are not used: {}", printable(options.manifest.string()),
-                           fmt::join(reader.value().ignored_columns(), ", ")));
+                           fmt::join(list.ignored_columns, ", ")));
 }
 
 /// Rows are identified by their number, so that the manifest must be the same from the first reading to the last.
@@ -90,13 +82,13 @@ void close(const BatchOptions& options, const WorkList& list, const Run& run, Re
 BatchOutcome run_or_throw(const BatchOptions& options, const BatchHooks& hooks) {
   const WorkList list = list_work(options);
   const FolderLock lock = FolderLock::take(options.folder);
-  if (options.report) prepare_pages(*options.report, list);
+  if (options.report) prepare_pages(*options.report);
   RunRecord record = begin_record(options, list.manifest_digest, list.rows);
-  const std::optional<RunRecord> before = continued_record(options, record);
+  const std::optional<RunRecord> before = check_folder(options.folder, record);
   if (before) report_other_processor(hooks, *before, record);
   if (before) record.processor = processors_of(*before, record);
   notify_of_damaged(hooks, prepare_folder(options, list, record, before), kResults);
-  notify_of_ignored_columns(options, hooks);
+  notify_of_ignored_columns(options, hooks, list);
   ResultLog log(options.folder, list.is_mine.size());
   log.throw_error();
   notify_of_damaged(hooks, log.damaged(), kJournal);

@@ -7,11 +7,8 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstdlib>
 #include <cstring>
-#include <random>
 #include <system_error>
-#include <vector>
 
 #include "core/platform.hpp"
 #include "slipfit/core/printable.hpp"
@@ -23,31 +20,18 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kBuffer = std::size_t{1} << 18;
 constexpr mode_t kMode = 0666;
-constexpr std::string_view kNew = ".new";
-constexpr std::size_t kRandomLetters = 6;
 
 fs::path folder_of(const fs::path& file) {
   return file.has_parent_path() ? file.parent_path() : ".";
 }
 
-std::string random_letters() {
-  constexpr std::string_view kLetters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789";
-  std::random_device device;
-  std::string letters(kRandomLetters, ' ');
-  for (char& letter : letters) letter = kLetters[device() % kLetters.size()];
-  return letters;
-}
-
-/// A file next to `file` that did not exist, opened for writing. It has the mode of `mode_of`, or, where there is none,
-/// that which the umask leaves. Returns -1 with errno where it cannot be made.
-int open_temporary(const fs::path& file, const fs::path& mode_of, std::string& name) {
+/// Opens a new file in place of one that a killed process may have left. It has the mode of `mode_of`, or, where there
+/// is none, that which the umask leaves. Returns -1 with errno where it cannot be made.
+int open_new(const fs::path& file, const fs::path& mode_of) {
   struct stat status {};
   const bool exists = ::lstat(mode_of.c_str(), &status) == 0 && S_ISREG(status.st_mode);
-  int descriptor = -1;
-  do {
-    name = (file.parent_path() / fmt::format(".{}.{}{}", file.filename().string(), random_letters(), kNew)).string();
-    descriptor = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, exists ? 0600 : kMode);
-  } while (descriptor < 0 && errno == EEXIST);
+  (void)::unlink(file.c_str());
+  const int descriptor = ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, exists ? 0600 : kMode);
   if (descriptor >= 0 && exists) (void)::fchmod(descriptor, status.st_mode & 0777U);  // some file systems have no modes
   return descriptor;
 }
@@ -95,18 +79,6 @@ void CheckedFile::throw_error() const {
   if (error) throw ThrownError(*error);
 }
 
-void remove_leftovers(const fs::path& folder, const std::function<bool(std::string_view name)>& is_ours) {
-  std::error_code error;
-  std::vector<fs::path> leftovers;
-  for (const auto& entry : fs::directory_iterator(folder.empty() ? "." : folder, error)) {
-    const std::string name = entry.path().filename().string();
-    const std::size_t tail = 1 + kRandomLetters + kNew.size();
-    if (name.size() <= 1 + tail || name.front() != '.' || !name.ends_with(kNew)) continue;
-    if (is_ours(std::string_view(name).substr(1, name.size() - 1 - tail))) leftovers.push_back(entry.path());
-  }
-  for (const fs::path& leftover : leftovers) fs::remove(leftover, error);
-}
-
 LineFile::LineFile(const fs::path& file)
     : file_(file, ::open(file.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC | O_NOFOLLOW, kMode)) {}
 
@@ -140,7 +112,8 @@ Result<std::string> LineFile::line_at(std::uint64_t place) const {
 }
 
 Replacement::Replacement(const fs::path& file, const fs::path& mode_of)
-    : file_(file, open_temporary(file, mode_of, temporary_)) {}
+    : temporary_(file.parent_path() / fmt::format(".{}.new", file.filename().string())),
+      file_(file, open_new(temporary_, mode_of)) {}
 
 Replacement::~Replacement() {
   if (file_.handle) (void)::unlink(temporary_.c_str());

@@ -3,7 +3,6 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -49,10 +48,6 @@ struct CheckedFile {
   std::optional<Error> error;
 };
 
-/// Removes the temporary files that a killed process left; `is_ours` is asked for the name of the file that each would
-/// have replaced.
-void remove_leftovers(const std::filesystem::path& folder, const std::function<bool(std::string_view name)>& is_ours);
-
 /// A file of whole lines that grows at its end, also by other processes that have it open for themselves.
 class LineFile {
  public:
@@ -76,7 +71,7 @@ class LineFile {
 };
 
 /// A new file next to `file` that replaces it when everything is written: readers see the old content or the new.
-/// Unless `finish` succeeds, it is removed.
+/// Unless `finish` succeeds, it is removed; one process at a time may replace a file.
 class Replacement {
  public:
   explicit Replacement(const std::filesystem::path& file) : Replacement(file, file) {}
@@ -96,7 +91,7 @@ class Replacement {
   [[nodiscard]] Digest digest() const { return digester_.digest(); }
 
  private:
-  std::string temporary_;
+  std::filesystem::path temporary_;
   CheckedFile file_;
   std::string buffer_;
   Digester digester_;

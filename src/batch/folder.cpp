@@ -126,10 +126,9 @@ std::optional<RunRecord> check_folder(const fs::path& folder, const RunRecord& n
     throw file_error("folder_of_another_batch", folder,
                      fmt::format("contains '{}' without the run.json of its batch; choose another folder", name));
   }
-  remove_leftovers(folder,
-                   [](std::string_view name) { return std::ranges::find(kFolderFiles, name) != kFolderFiles.end(); });
-  const auto differs = before && has_results(folder, *before) ? difference(*before, now) : std::nullopt;
+  const auto differs = before ? difference(*before, now) : std::nullopt;
   if (!differs) return before;
+  if (!has_results(folder, *before)) return std::nullopt;
   throw file_error(
       "folder_of_another_batch", folder,
       fmt::format(

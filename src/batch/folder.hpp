@@ -34,19 +34,15 @@ class FolderLock {
   FileHandle handle_;
 };
 
-/// The record of the batch that a folder holds, if any; temporary files that killed processes left are removed. Errors:
-/// folder_of_another_batch where it holds results of another batch than `now`, or files of a batch's names that no
-/// batch wrote; cannot_write where they are symbolic links, which are not followed.
+/// The record of the batch in a folder that `now` continues, if any. Errors: folder_of_another_batch where it holds
+/// results of another batch, or files of a batch's names that no batch wrote; cannot_write where they are symbolic
+/// links, which are not followed.
 std::optional<RunRecord> check_folder(const std::filesystem::path& folder, const RunRecord& now);
 
 /// Returns true if the folder holds a result of the batch of this record.
 bool has_results(const std::filesystem::path& folder, const RunRecord& record);
 
-}  // namespace slipfit::batch
-
 // The files of a finished batch: results.jsonl, summary.csv and failures.csv, in the manifest's order.
-
-namespace slipfit::batch {
 
 /// A line of the log, and what the manifest says about its recording or group.
 struct LoggedResult {

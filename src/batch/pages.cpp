@@ -5,9 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cerrno>
-#include <charconv>
 #include <fstream>
-#include <limits>
 #include <system_error>
 #include <utility>
 
@@ -34,13 +32,6 @@ std::string page_name(const SlotKey& key) {
     if (!is_plain) c = '_';
   }
   return fmt::format("{:05}-{}.html", key.slot + 1, name);
-}
-
-/// Returns the slot of a page by its name; a number above all slots if the name is not that of a page.
-std::size_t slot_of(std::string_view name) {
-  std::size_t number = 0;
-  const auto read = std::from_chars(name.data(), name.data() + name.size(), number);
-  return read.ec == std::errc() ? number - 1 : std::numeric_limits<std::size_t>::max();
 }
 
 fs::path page_file(const BatchReport& report, const SlotKey& key) {
@@ -88,19 +79,10 @@ std::string last_line_of(const fs::path& file) {
 
 }  // namespace
 
-void remove_page_leftovers(const BatchReport& report, const WorkList& list) {
-  remove_leftovers(report.file.parent_path() / kFolder, [&](std::string_view name) {
-    const std::size_t slot = slot_of(name);
-    return slot < list.is_mine.size() && list.is_mine[slot];  // another shard may be running as well
-  });
-}
-
-void prepare_pages(const BatchReport& report, const WorkList& list) {
+void prepare_pages(const BatchReport& report) {
   const fs::path folder = report.file.parent_path();
   make_folder(folder.empty() ? "." : folder);
   make_folder(folder / kFolder);
-  remove_page_leftovers(report, list);
-  remove_leftovers(folder, [&](std::string_view name) { return name == report.file.filename(); });
   check_replaceable(report.file);
 }
 

@@ -15,10 +15,7 @@
 namespace slipfit::batch {
 
 /// Prepares the pages. Errors: cannot_write; not_a_page if the index would replace a file that is not a page.
-void prepare_pages(const BatchReport& report, const WorkList& list);
-
-/// Removes the temporary files of pages of this list that killed processes left.
-void remove_page_leftovers(const BatchReport& report, const WorkList& list);
+void prepare_pages(const BatchReport& report);
 
 /// Writes the page of a recording or group. Errors: as above.
 void write_page(const BatchReport& report, const SlotKey& key, const BatchFit& fit);

@@ -147,8 +147,8 @@ std::size_t begin_journal(const std::filesystem::path& folder, const RunRecord* 
     if (digest && digest->text() == before->digests.results) {
       for_each_line(folder / kResults, [&](const std::string& document, std::uint64_t) {
         const auto id = id_of(document);
-        const auto slot = id ? list.slots.find(*id) : std::nullopt;
-        if (slot) journal.append(journal_line(kFitted, *slot, document) + "\n");
+        const auto place = id ? list.slots.find(digest_of(*id)) : list.slots.end();
+        if (place != list.slots.end()) journal.append(journal_line(kFitted, place->second, document) + "\n");
       });
     } else {
       damaged = before->progress.total;

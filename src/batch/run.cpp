@@ -6,7 +6,6 @@
 #include <unordered_map>
 #include <utility>
 
-#include "batch/pages.hpp"
 #include "slipfit/core/printable.hpp"
 
 namespace slipfit::batch {
@@ -54,7 +53,7 @@ void Run::fit_recordings() {
   while (const auto entry = stopped_ ? std::nullopt : entries.next()) {
     const bool is_mine = entry->row <= list_.rows && list_.is_mine[entry->row - 1];  // the file may have grown
     if (!is_mine) continue;
-    offer({{entry->row - 1, entry->id}, {input_paths_of(*entry)}, [this, entry] {
+    offer({{entry->row - 1, entry->id}, 1, input_files_of({&*entry, 1}), [this, entry] {
              return fit_recording_of(*entry, options_, kept_);
            }});
   }
@@ -67,10 +66,10 @@ void Run::fit_groups(std::size_t first_group, std::size_t count) {
     const std::size_t slot = list_.slot_of_group(first_group + i);
     if (!list_.is_mine[slot]) continue;
     const Members& group = members[i];
-    WorkItem item{{slot, id_of_group(list_.groups[first_group + i].name)}, {}, {}};
-    for (const ManifestEntry& member : group) item.inputs.push_back(input_paths_of(member));
-    item.fit = [this, id = item.key.id, &group] { return options_.fit_group(id, group); };
-    offer(std::move(item));
+    const std::string id = id_of_group(list_.groups[first_group + i].name);
+    offer({{slot, id}, group.size(), input_files_of(group), [this, id, &group] {
+             return options_.fit_group(id, group);
+           }});
   }
   finish();
 }
@@ -133,7 +132,6 @@ void Run::finish() {
 
 void Run::end() {
   pool_.kill_all();
-  if (options_.report && !at_work_.empty()) remove_page_leftovers(*options_.report, list_);
   for (const auto& [job, item] : at_work_) log_.add_end(item.key.slot);
   at_work_.clear();
 }
@@ -171,7 +169,7 @@ void Run::wait_for_begun() {
 
 /// A group has as long as its recordings one after the other.
 double Run::limit_of(const WorkItem& item) const {
-  return options_.timeout_s * static_cast<double>(std::max<std::size_t>(1, item.inputs.size()));
+  return options_.timeout_s * static_cast<double>(std::max<std::size_t>(1, item.recordings));
 }
 
 void Run::take(const WorkItem& item, const Answer& answer) {

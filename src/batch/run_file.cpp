@@ -15,18 +15,8 @@
 namespace slipfit::batch {
 
 namespace {
+
 using Json = nlohmann::ordered_json;
-}  // namespace
-
-// For nlohmann::json.
-static void to_json(Json& json, const JsonText& options) {
-  json = Json::parse(options.text);
-}
-static void from_json(const Json& json, JsonText& options) {
-  options.text = json.dump();
-}
-
-namespace {
 
 constexpr const char* kSchema = "slipfit.run/1";
 constexpr std::uintmax_t kLargestRecord = std::uintmax_t{1} << 20U;  // hundreds of times what is written
@@ -57,10 +47,10 @@ void for_each_member(Record& record, const Use& use) {
   use("/digests/failures", record.digests.failures);
 }
 
-std::string options_text(const BatchOptions& options) {
+Json options_of(const BatchOptions& options) {
   Json json = options_json({options.fit.tier, options.fit.held});
   json["joint_groups"] = static_cast<bool>(options.fit_group);
-  return json.dump();
+  return json;
 }
 
 }  // namespace
@@ -72,7 +62,7 @@ RunRecord begin_record(const BatchOptions& options, const Digest& manifest_diges
   record.processor = processor_of_machine();
   record.manifest = printable(options.manifest.string());
   record.manifest_digest = manifest_digest.text();
-  record.options.text = options_text(options);
+  record.options = options_of(options);
   record.shard = options.shard;
   record.jobs = options.jobs;
   record.timeout_s = options.timeout_s;
@@ -128,7 +118,7 @@ std::optional<std::string> difference(const RunRecord& before, const RunRecord& 
   if (before.manifest_digest != now.manifest_digest) {
     return fmt::format("the manifest was another one ('{}'), or has been edited since", before.manifest);
   }
-  if (before.options != now.options) return changed("options were", before.options.text, now.options.text);
+  if (before.options != now.options) return changed("options were", before.options.dump(), now.options.dump());
   const auto text_of = [](const Shard& shard) { return fmt::format("{}/{}", shard.index, shard.count); };
   if (text_of(before.shard) != text_of(now.shard))
     return changed("shard was", text_of(before.shard), text_of(now.shard));

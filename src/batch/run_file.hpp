@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 
@@ -15,12 +16,6 @@ struct FileDigests {
   std::string results, summary, failures;
 };
 
-/// JSON as text.
-struct JsonText {
-  std::string text;
-  friend bool operator==(const JsonText&, const JsonText&) = default;
-};
-
 /// The contents of run.json: what was run, and how far it got.
 struct RunRecord {
   std::string version;
@@ -28,7 +23,7 @@ struct RunRecord {
   std::string processor;  ///< processor_of_machine() of all machines that worked on it, separated by "; "
   std::string manifest;
   std::string manifest_digest;
-  JsonText options;  ///< what changes the results
+  nlohmann::ordered_json options;  ///< what changes the results
   Shard shard;
   std::size_t jobs = 1;
   double timeout_s = 0.0;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 #include <system_error>
 #include <unordered_map>
 
@@ -40,7 +41,8 @@ class WorkCollector {
     for (const std::filesystem::path& file : {entry.file, entry.surface}) {
       if (has_written_name(file)) check_not_written(file, options_.folder);
     }
-    list_.slots.add(entry.id, entry.row - 1);
+    const Digest id = digest_of(entry.id);
+    if (!list_.slots.emplace(id, entry.row - 1).second) repeated_.insert(id);
     list_.rows = entry.row;
     const std::size_t first_row = options_.fit_group && !entry.group.empty() ? add_member(entry) : entry.row;
     list_.is_mine.push_back(first_row < entry.row ? list_.is_mine[first_row - 1] : next_is_mine());
@@ -50,12 +52,14 @@ class WorkCollector {
     std::vector<Group>& groups = list_.groups;
     std::ranges::sort(groups, [](const Group& a, const Group& b) { return a.last_row < b.last_row; });
     for (std::size_t g = 0; g < groups.size(); ++g) {
-      list_.slots.add(id_of_group(groups[g].name), list_.slot_of_group(g));
+      list_.slots.emplace(digest_of(id_of_group(groups[g].name)), list_.slot_of_group(g));
       list_.is_mine.push_back(list_.is_mine[groups[g].first_row - 1]);
     }
-    list_.slots.sort();
     return std::move(list_);
   }
+
+  /// Digests of the ids that occur more than once.
+  [[nodiscard]] const std::set<Digest>& repeated() const { return repeated_; }
 
  private:
   /// Returns the first row of the entry's group.
@@ -73,41 +77,24 @@ class WorkCollector {
 
   const BatchOptions& options_;
   WorkList list_;
+  std::set<Digest> repeated_;
   std::unordered_map<std::string, std::size_t> group_of_name_;
   std::size_t pieces_ = 0;  ///< rows without a group, and groups, so far
 };
 
 /// Reads the manifest once more, to list the ids that occur twice.
-void check_duplicates(const std::filesystem::path& manifest, const std::vector<Digest>& suspects) {
+void check_duplicates(const std::filesystem::path& manifest, const std::set<Digest>& suspects) {
   if (suspects.empty()) return;
   std::unordered_map<std::string, std::size_t> lines;
   Entries entries(manifest);
   while (const auto entry = entries.next()) {
-    if (!std::binary_search(suspects.begin(), suspects.end(), digest_of(entry->id))) continue;
+    if (!suspects.contains(digest_of(entry->id))) continue;
     const auto [first, is_new] = lines.try_emplace(entry->id, entry->line);
-    if (!is_new) throw ThrownError(reading::duplicate_id(printable(manifest.string()), *entry, first->second));
+    if (!is_new) throw reading::duplicate_id(printable(manifest.string()), *entry, first->second);
   }
 }
 
 }  // namespace
-
-void IdIndex::sort() {
-  std::ranges::sort(entries_);
-}
-
-std::optional<std::size_t> IdIndex::find(std::string_view id) const {
-  const Digest wanted = digest_of(id);
-  const auto found = std::lower_bound(entries_.begin(), entries_.end(), std::pair(wanted, std::size_t{0}));
-  return found == entries_.end() || found->first != wanted ? std::nullopt : std::optional(found->second);
-}
-
-std::vector<Digest> IdIndex::repeated() const {
-  std::vector<Digest> digests;
-  for (std::size_t i = 1; i < entries_.size(); ++i) {
-    if (entries_[i].first == entries_[i - 1].first) digests.push_back(entries_[i].first);
-  }
-  return digests;
-}
 
 std::string id_of_group(const std::string& name) {
   return "group:" + name;
@@ -130,8 +117,9 @@ WorkList list_work(const BatchOptions& options) {
   Entries entries(options.manifest);
   while (const auto entry = entries.next()) collector.add(*entry);
   WorkList list = collector.finish();
-  if (list.rows == 0) throw ThrownError(reading::empty_manifest(printable(options.manifest.string())));
-  check_duplicates(options.manifest, list.slots.repeated());
+  list.ignored_columns = entries.ignored_columns();
+  if (list.rows == 0) throw reading::empty_manifest(printable(options.manifest.string()));
+  check_duplicates(options.manifest, collector.repeated());
   list.manifest_digest = value_or_throw(digest);
   return list;
 }

@@ -2,10 +2,9 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
-#include <string_view>
-#include <utility>
 #include <vector>
 
 #include "core/thrown_error.hpp"
@@ -14,20 +13,6 @@
 #include "slipfit/io/manifest.hpp"
 
 namespace slipfit::batch {
-
-/// Finds the slot that belongs to an id, in 24 bytes an id: digests in place of the ids.
-class IdIndex {
- public:
-  void add(std::string_view id, std::size_t slot) { entries_.emplace_back(digest_of(id), slot); }
-  /// Sorts the list; to be called after the last `add` and before any query.
-  void sort();
-  [[nodiscard]] std::optional<std::size_t> find(std::string_view id) const;
-  /// Digests of the ids that were added more than once.
-  [[nodiscard]] std::vector<Digest> repeated() const;
-
- private:
-  std::vector<std::pair<Digest, std::size_t>> entries_;
-};
 
 /// A group of the manifest; its result follows that of the last of its recordings.
 struct Group {
@@ -41,9 +26,10 @@ struct Group {
 struct WorkList {
   Digest manifest_digest;
   std::size_t rows = 0;
-  std::vector<bool> is_mine;  ///< of each slot: it is this shard's
-  std::vector<Group> groups;  ///< fitted together; empty where groups are not fitted
-  IdIndex slots;              ///< by id
+  std::vector<bool> is_mine;            ///< of each slot: it is this shard's
+  std::vector<Group> groups;            ///< fitted together; empty where groups are not fitted
+  std::map<Digest, std::size_t> slots;  ///< by the digests of ids, which take less memory than the ids
+  std::vector<std::string> ignored_columns;
 
   [[nodiscard]] std::size_t slot_of_group(std::size_t group) const { return rows + group; }
 };
@@ -64,6 +50,7 @@ class Entries {
   explicit Entries(const std::filesystem::path& manifest) : reader_(value_or_throw(ManifestReader::open(manifest))) {}
   /// Returns the next entry, or nothing after the last one.
   std::optional<ManifestEntry> next() { return value_or_throw(reader_.next()); }
+  [[nodiscard]] const std::vector<std::string>& ignored_columns() const { return reader_.ignored_columns(); }
 
  private:
   ManifestReader reader_;

@@ -5,12 +5,14 @@
 #include <exception>
 #include <new>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <string>
 #include <string_view>
 #include <system_error>
 
 #include "batch/files.hpp"
 #include "batch/pages.hpp"
-#include "io/kept_recordings.hpp"
+#include "io/message.hpp"
 #include "report/batch_html.hpp"
 #include "slipfit/background.hpp"
 #include "slipfit/core/printable.hpp"
@@ -79,51 +81,34 @@ InputState compare_input(const DocumentJson& input, const std::filesystem::path&
   return digest == now->text() ? InputState::Same : InputState::Changed;
 }
 
-/// Returns `file`, `input_digest` and `input_bytes` of the files that were read for a recording.
-std::vector<DocumentJson> inputs_in(const DocumentJson& recording) {
-  std::vector<DocumentJson> inputs{recording};
-  for (const DocumentJson& other : recording.value("other_inputs", DocumentJson::array())) {
-    inputs.push_back(other.is_object() ? other : DocumentJson::object());
+/// Returns `file`, `input_digest` and `input_bytes` of the files that were read for a document, each file once.
+std::vector<DocumentJson> inputs_of(const DocumentJson& document) {
+  std::vector<DocumentJson> inputs;
+  std::set<DocumentJson> names;
+  const auto add = [&](const DocumentJson& input) {
+    if (input.is_object() && names.insert(input.value("file", DocumentJson())).second) inputs.push_back(input);
+  };
+  const DocumentJson none = DocumentJson::array();
+  for (const DocumentJson& one : document.value("recordings", DocumentJson::array({document}))) {
+    const DocumentJson recording = one.is_object() ? one.value("recording", DocumentJson()) : DocumentJson();
+    add(recording);
+    for (const DocumentJson& other : recording.is_object() ? recording.value("other_inputs", none) : none) add(other);
   }
   return inputs;
 }
 
-/// Returns the files of each recording of a document; consecutive recordings may be in one file.
-std::vector<std::vector<DocumentJson>> inputs_of(const DocumentJson& recordings) {
-  const auto names_in = [](const std::vector<DocumentJson>& inputs) {
-    std::vector<DocumentJson> names;
-    names.reserve(inputs.size());
-    for (const DocumentJson& input : inputs) names.push_back(input.value("file", DocumentJson()));
-    return names;
-  };
-  std::vector<std::vector<DocumentJson>> all;
-  for (const DocumentJson& recording : recordings) {
-    const DocumentJson none = DocumentJson::object();
-    const DocumentJson section = recording.is_object() ? recording.value("recording", none) : none;
-    std::vector<DocumentJson> inputs = inputs_in(section.is_object() ? section : none);
-    if (all.empty() || names_in(all.back()) != names_in(inputs)) all.push_back(std::move(inputs));
-  }
-  return all;
-}
-
 /// States whether the files of a recording, or of the recordings of a group, are those of the document, by sizes and
 /// digests.
-InputState compare_inputs(const std::string& document, std::vector<InputPaths> paths) {
+InputState compare_inputs(const std::string& document, const WorkItem& item) {
   const DocumentJson json = DocumentJson::parse(document, nullptr, false);
   if (!json.is_object()) return InputState::Changed;
-  const DocumentJson recordings =
-      json.contains("recording") ? DocumentJson::array({json}) : json.value("recordings", DocumentJson::array());
-  const std::vector<std::vector<DocumentJson>> inputs = inputs_of(recordings);
-  paths.erase(std::unique(paths.begin(), paths.end()), paths.end());
-  if (inputs.size() != paths.size()) return InputState::Changed;
+  const std::vector<DocumentJson> inputs = inputs_of(json);
+  if (inputs.size() != item.inputs.size()) return InputState::Changed;
   InputState state = InputState::Same;
-  for (std::size_t i = 0; i < paths.size(); ++i) {
-    if (inputs[i].size() != paths[i].size()) return InputState::Changed;
-    for (std::size_t k = 0; k < paths[i].size(); ++k) {
-      const InputState found = compare_input(inputs[i][k], paths[i][k]);
-      if (found == InputState::Changed) return found;
-      if (found == InputState::Gone) state = found;
-    }
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    const InputState found = compare_input(inputs[i], item.inputs[i]);
+    if (found == InputState::Changed) return found;
+    if (found == InputState::Gone) state = found;
   }
   return state;
 }
@@ -137,12 +122,19 @@ JsonOptions layout_of(const std::string& id) {
 
 }  // namespace
 
-InputPaths input_paths_of(const ManifestEntry& entry) {
-  return entry.surface.empty() ? InputPaths{entry.file} : InputPaths{entry.file, entry.surface};
+std::vector<std::filesystem::path> input_files_of(std::span<const ManifestEntry> entries) {
+  std::vector<std::filesystem::path> inputs;
+  std::set<std::string> names;
+  for (const ManifestEntry& entry : entries) {
+    for (const std::filesystem::path* const file : {&entry.file, &entry.surface}) {
+      if (!file->empty() && names.insert(reading::name_of_file(*file)).second) inputs.push_back(*file);
+    }
+  }
+  return inputs;
 }
 
 std::string name_of(const WorkItem& item) {
-  return printable(item.inputs.size() == 1 ? item.inputs.front().front().string() : item.key.id);
+  return printable(item.recordings == 1 ? item.inputs.front().string() : item.key.id);
 }
 
 /// Fits all strokes or segments of a row together, like a group.
@@ -178,7 +170,7 @@ std::string work_on(const WorkItem& item, const BatchOptions& options, const Res
   const std::size_t slot = item.key.slot;
   const auto line = log.has_result(slot) ? log.line_of(slot) : Error{};
   if (!line) return fit_reply(item, options, log, Reply::Kind::Fitted);
-  const InputState inputs = compare_inputs(line.value(), item.inputs);
+  const InputState inputs = compare_inputs(line.value(), item);
   if (inputs == InputState::Changed) return fit_reply(item, options, log, Reply::Kind::FittedAnew);
   if (inputs == InputState::Gone) return reply_text(Reply::Kind::KeptUnread);
   const bool has_page = !options.report || sparkline_on_page(*options.report, item.key, line.value());

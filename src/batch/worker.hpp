@@ -2,12 +2,13 @@
 
 #include <filesystem>
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "batch/result_log.hpp"
 #include "batch/work_list.hpp"
-#include "io/container/kept_file.hpp"
+#include "io/kept_recordings.hpp"
 #include "slipfit/batch/options.hpp"
 #include "slipfit/core/result.hpp"
 
@@ -15,15 +16,14 @@
 
 namespace slipfit::batch {
 
-/// The files that are read for a recording: its own, then others in the order in which its document lists them.
-using InputPaths = std::vector<std::filesystem::path>;
-
-InputPaths input_paths_of(const ManifestEntry& entry);
+/// Returns the files that are read for these recordings, each once, in the order in which their document lists them.
+std::vector<std::filesystem::path> input_files_of(std::span<const ManifestEntry> entries);
 
 /// A recording or a group, and how it is fitted.
 struct WorkItem {
   SlotKey key;
-  std::vector<InputPaths> inputs;  ///< of each recording
+  std::size_t recordings = 1;
+  std::vector<std::filesystem::path> inputs;
   std::function<Result<BatchFit>()> fit;
 };
 

@@ -47,8 +47,11 @@ std::size_t count_negative(std::span<const double> force) {
   return static_cast<std::size_t>(std::ranges::count_if(force, [](double f) { return f < 0.0; }));
 }
 
-}  // namespace
+/// The direction in which the force repeatedly changes much faster than in the other.
+enum class SuddenChanges { None, Falls, Rises };
 
+/// Returns the direction of sudden changes, by the skewness of the changes over some time: far from 0 with one sign,
+/// whichever sixteenth of the trace is left out.
 SuddenChanges sudden_changes(std::span<const double> force) {
   constexpr double kSkewness = 0.3;           // -0.3 for cycles near the limit of stick-slip, 0 for waves and noise
   constexpr std::size_t kLeastChanges = 512;  // in the trace, one behind the other: that of noise is below 0.2
@@ -68,33 +71,158 @@ SuddenChanges sudden_changes(std::span<const double> force) {
   return SuddenChanges::None;
 }
 
-bool is_mostly_negative(std::span<const double> force) {
-  return 2 * count_negative(force) > force.size();
+Motion motion_of(const Part& part) {
+  return {part.rows.force, part.rows.displacement_m};
 }
 
-bool is_negative_throughout(std::span<const double> force) {
-  return 10 * count_negative(force) >= 9 * force.size();
+constexpr double kStatedTolerance = 0.05;  // of a stated value against a slope or a load cell's mean
+constexpr double kSpeedTolerance = 0.01;   // of a stated speed against a column of speeds
+constexpr double kClearlyOff = 2.0;        // standard deviations of the column
+constexpr double kMostLoadScatter = 0.1;   // of the load, before its mean says little about the single slip
+
+bool differ(double stated, const Level& measured, double tolerance) {
+  const double bound = std::max(tolerance * stated, kClearlyOff * measured.standard_deviation);
+  return std::abs(stated - measured.value) > bound;
 }
 
-namespace {
+/// The speed of the parts where a displacement moves (median of block slopes, without sign) with the error of that
+/// median, if most of them move at one speed.
+std::optional<Estimate> steady_speed_m_per_s(const Rows& rows) {
+  constexpr std::size_t kBlocks = 64;
+  std::vector<double> speeds = block_speeds_m_per_s(rows.time_s, rows.displacement_m, kBlocks);
+  if (speeds.size() < 4) return std::nullopt;
+  const double fast_m_per_s = quantile_of(speeds, 0.9);
+  std::erase_if(speeds, [&](double v) { return !(v > 0.2 * fast_m_per_s); });  // standing, or about to start
+  if (speeds.size() < 3) return std::nullopt;
+  const double speed_m_per_s = quantile_of(speeds, 0.5);
+  const auto alike =
+      std::ranges::count_if(speeds, [&](double v) { return std::abs(v - speed_m_per_s) <= 0.2 * speed_m_per_s; });
+  const bool is_steady = 10 * alike >= 6 * static_cast<std::ptrdiff_t>(speeds.size());
+  if (!is_steady) return std::nullopt;
+  std::vector<double> off;
+  off.reserve(speeds.size());
+  for (const double v : speeds) off.push_back(std::abs(v - speed_m_per_s));
+  constexpr double kMedianToSe = 1.4826 * 1.2533;  // of a median of deviations to the error of a median
+  const double se_m_per_s = kMedianToSe * quantile_of(off, 0.5) / std::sqrt(static_cast<double>(off.size()));
+  return Estimate{speed_m_per_s, se_m_per_s, std::nullopt, {}};
+}
 
-/// The data from which every recording of a part is built.
-struct Interpreted {
-  Rows rows;
-  Conditions conditions;
-  Provenance provenance;
+/// Factors by which speeds are wrong if the unit is confused: mm and cm, min and s, m and mm, m/s and mm/min, mm/s and
+/// m/min.
+constexpr std::array kUnitFactors{10.0, 60.0, 1000.0, 6e4, 1e3 / 60.0};
 
-  [[nodiscard]] Motion motion() const { return {rows.force, rows.displacement_m}; }
-};
+/// "10mm/min" of a stated "10 mm/s" where the displacement moves at that; else the speed of the displacement.
+std::string speed_to_state(const Conditions& stated, double moved_m_per_s) {
+  const Result<UnitScale> unit = parse_unit(stated.speed_unit, Dimension::Speed);
+  const double number = stated.speed_m_per_s / (unit ? unit.value().scale : 1.0);
+  for (const char* const other : {"mm/min", "mm/s", "um/s", "cm/s", "cm/min", "m/min", "m/s"}) {
+    const double m_per_s = number * parse_unit(other, Dimension::Speed).value().scale;
+    if (std::abs(m_per_s / moved_m_per_s - 1.0) < kStatedTolerance) return fmt::format("{:.6g}{}", number, other);
+  }
+  return fmt::format("{:.6g}m/s", moved_m_per_s);
+}
+
+/// Error: speed_contradicted, where a displacement contradicts the stated speed by the factor of a mistaken unit.
+void check_unit_of_speed(const Conditions& stated, double moved_m_per_s, const std::string& column,
+                         const std::string& file) {
+  const double stated_m_per_s = stated.speed_m_per_s;
+  const double ratio = std::max(stated_m_per_s / moved_m_per_s, moved_m_per_s / stated_m_per_s);
+  const auto is_near = [&](double factor) { return std::abs(ratio / factor - 1.0) < kStatedTolerance; };
+  if (std::none_of(kUnitFactors.begin(), kUnitFactors.end(), is_near)) return;
+  throw ThrownError(
+      {"speed_contradicted",
+       fmt::format("{}: the speed is {:.6g} m/s, but {} moves at {:.6g} m/s; the factor {:.4g} suggests another unit; "
+                   "give --speed {}, or correct the unit in the name of that column",
+                   file, stated_m_per_s, column, moved_m_per_s, ratio, speed_to_state(stated, moved_m_per_s))});
+}
+
+ThrownError no_speed(const OpenedFile& file) {
+  if (!file.choice.speed) {
+    return ThrownError({"no_speed", file.name + ": --speed is missing: give the driving speed, for example --speed "
+                                                "10mm/s (no column contains it)"});
+  }
+  return ThrownError({"speed_varies", fmt::format("{}: {} has no constant speed; read a part of it with --step N, "
+                                                  "--rows A:B or --window T0:T1, or give the speed with --speed",
+                                                  file.name, describe(file.layout, file.choice.speed->column))});
+}
+
+/// Warns if a displacement moves at another speed than the stated one. `what` describes the displacement.
+void compare_speed(Part& part, double moved_m_per_s, const std::string& what) {
+  const double stated_m_per_s = part.conditions.speed_m_per_s;
+  const double off_m_per_s = std::abs(moved_m_per_s - stated_m_per_s);
+  if (!std::isfinite(off_m_per_s) || off_m_per_s <= kStatedTolerance * stated_m_per_s) return;
+  part.provenance.warnings.push_back(
+      {"speed_differs_from_displacement",
+       fmt::format("the stated speed is {:.6g} m/s, but {} moves at {:.6g} m/s", stated_m_per_s, what, moved_m_per_s)});
+}
+
+/// The stated speed takes precedence over a column. Errors: no_speed, speed_varies.
+void state_speed(Part& part, const OpenedFile& file) {
+  double& speed_m_per_s = part.conditions.speed_m_per_s;
+  const auto measured = level_of(part.rows.speed_m_per_s);
+  const bool is_wanted = std::exchange(part.conditions.speed_is_known, true);
+  if (speed_m_per_s == 0.0 && !(measured && measured->is_steady)) {
+    if (is_wanted) throw no_speed(file);
+    speed_m_per_s = 1.0;
+    part.conditions.speed_is_known = false;
+  } else if (speed_m_per_s == 0.0) {
+    speed_m_per_s = measured->value;
+    part.assume(fmt::format("Speed is {}: {:.6g} m/s, standard deviation {:.2g} m/s.",
+                            describe(file.layout, file.choice.speed->column), speed_m_per_s,
+                            measured->standard_deviation));
+  } else if (measured && differ(speed_m_per_s, *measured, kSpeedTolerance)) {
+    part.provenance.warnings.push_back(
+        {"speed_differs",
+         fmt::format("the stated speed is {:.6g} m/s, but {} contains {:.6g} m/s; the stated one is used, and "
+                     "stiffness and spacing depend on it",
+                     speed_m_per_s, describe(file.layout, file.choice.speed->column), measured->value)});
+  }
+}
+
+/// Error: speed_contradicted.
+void compare_with_displacement(Part& part, const OpenedFile& file) {
+  if (part.rows.displacement_m.empty() || !part.conditions.speed_is_known) return;
+  auto moved = steady_speed_m_per_s(part.rows);
+  if (!moved) return;
+  const std::string name = describe(file.layout, file.choice.displacement->column);
+  check_unit_of_speed(part.conditions, *moved->value, name, file.name);
+  compare_speed(part, *moved->value, name);
+  part.provenance.moved_m_per_s = std::move(moved);
+}
+
+/// The stated normal force takes precedence over a column.
+void state_normal_force(Part& part, const OpenedFile& file) {
+  const auto level = level_of(part.rows.normal_force_N);
+  if (!level) return;
+  const std::string name = describe(file.layout, file.choice.normal_force->column);
+  Warnings& warnings = part.provenance.warnings;
+  if (const auto& given = part.conditions.normal_force_N) {
+    if (!differ(*given, *level, kStatedTolerance)) return;
+    warnings.push_back(
+        {"normal_force_differs",
+         fmt::format("the stated normal force is {:.6g} N, but {} contains {:.6g} N; the stated one is used", *given,
+                     name, level->value)});
+    return;
+  }
+  part.conditions.normal_force_N = level->value;
+  part.assume(fmt::format("Normal force is {}: {:.6g} N, standard deviation {:.2g} N.", name, level->value,
+                          level->standard_deviation));
+  if (level->standard_deviation > kMostLoadScatter * level->value || !level->is_steady) {
+    warnings.push_back(
+        {"normal_force_varies", fmt::format("{} varies by more than a tenth of its median of {:.6g} N, which is used "
+                                            "throughout; read a part with a constant load",
+                                            name, level->value)});
+  }
+}
 
 /// Normal force and zero: from what the column says to a force.
-void interpret_force(Interpreted& part, ForceQuantity column) {
+void interpret_force(Part& part, ForceQuantity column) {
   Conditions& conditions = part.conditions;
   conditions.quantity = column;
   if (column == ForceQuantity::FrictionCoefficient && conditions.normal_force_N) {
     for (double& value : part.rows.force) value *= *conditions.normal_force_N;
     conditions.quantity = ForceQuantity::Force_N;
-    part.provenance.assumed.push_back(
+    part.assume(
         fmt::format("Force is the friction coefficient times the normal force of {} N.", *conditions.normal_force_N));
   }
   if (!conditions.zero_force_N) return;
@@ -108,56 +236,53 @@ void interpret_force(Interpreted& part, ForceQuantity column) {
 }
 
 /// Replaces time stamps that are a coarsely rounded even clock by that clock.
-void restore_clock(Interpreted& part) {
+void restore_clock(Part& part) {
   std::vector<double>& time_s = part.rows.time_s;
   const std::optional<RoundedClock> clock = rounded_clock(time_s);
   if (!clock) return;
   for (std::size_t i = 0; i < time_s.size(); ++i) {
     time_s[i] = clock->begin_s + clock->step_s * static_cast<double>(i);
   }
-  part.provenance.assumed.push_back(
-      fmt::format("The times are rounded to {:.4g} s from an even clock: one sample every {:.6g} s.", clock->rounding_s,
-                  clock->step_s));
+  part.assume(fmt::format("The times are rounded to {:.4g} s from an even clock: one sample every {:.6g} s.",
+                          clock->rounding_s, clock->step_s));
 }
 
-Interpreted interpret(Part part, const LoadedFile& file, const Conditions& conditions) {
-  check_part(part, file);
-  const StatedConditions stated = state_conditions(part.rows, file.choice, file.layout, conditions, file.name);
-  Interpreted result{{}, stated.conditions, describe_part(part, file)};
-  const auto append = [](auto& all, const auto& more) { all.insert(all.end(), more.begin(), more.end()); };
-  append(result.provenance.assumed, stated.assumed);
-  append(result.provenance.warnings, stated.warnings);
-  result.provenance.moved_m_per_s = stated.moved_m_per_s;
-  result.rows = std::move(part.rows);
-  interpret_force(result, file.choice.force.quantity);
-  restore_clock(result);
-  return result;
+/// Forces in newtons, and what file and columns say of them. Errors: those of describe_part and of speeds.
+Part interpret(Part part, const OpenedFile& file, const Conditions& conditions) {
+  part.conditions = conditions;
+  describe_part(part, file);
+  state_speed(part, file);
+  compare_with_displacement(part, file);
+  state_normal_force(part, file);
+  interpret_force(part, file.choice.force.quantity);
+  restore_clock(part);
+  return part;
 }
 
-void turn_sign(Interpreted& part, const char* reason) {
+void turn_sign(Part& part, const char* reason) {
   for (double& force : part.rows.force) force = -force;
-  part.provenance.assumed.emplace_back(reason);
+  part.assume(reason);
 }
 
 /// A force that is negative throughout has the other sign, unless an unknown zero has made it negative: friction rises
 /// slowly and falls suddenly. One that is negative for the most part has it where that shows.
-void settle_sign(Interpreted& part) {
+void settle_sign(Part& part) {
   const std::vector<double>& force = part.rows.force;
-  if (!is_mostly_negative(force)) return;
+  if (2 * count_negative(force) <= force.size()) return;
   const SuddenChanges changes = sudden_changes(force);
   if (!is_negative_throughout(force)) {
-    const bool is_turned = changes == SuddenChanges::Rises && find_strokes(part.motion()).empty();
+    const bool is_turned = changes == SuddenChanges::Rises && find_strokes(motion_of(part)).empty();
     if (is_turned) turn_sign(part, "The force is mostly negative and rises suddenly: its sign was reversed.");
   } else if (part.conditions.zero_force_N || changes != SuddenChanges::Falls) {
     turn_sign(part, "The force is negative throughout: its sign was reversed.");
   } else {
-    part.provenance.assumed.emplace_back(
+    part.assume(
         "The force is negative throughout, but it rises slowly and falls suddenly as friction does: its sign was kept, "
         "so the zero of the sensor is not at zero force.");
   }
 }
 
-Recording create(Interpreted part, const std::string& file) {
+Recording create(Part part, const std::string& file) {
   auto recording = Recording::create(std::move(part.rows.time_s), std::move(part.rows.force), part.conditions,
                                      std::move(part.provenance), std::move(part.rows.normal_force_N),
                                      std::move(part.rows.displacement_m));
@@ -189,19 +314,18 @@ std::optional<double> moved_m_per_s(const Rows& part, const SampleRange& kept) {
   return moved_m / (part.time_s[kept.end - 1] - part.time_s[kept.begin]);
 }
 
-NamedRecording record(const Interpreted& part, const Stroke& stroke, std::size_t number, const std::string& file) {
+NamedRecording record(const Part& part, const Stroke& stroke, std::size_t number, const std::string& file) {
   const SampleRange kept = at_full_speed(part.rows, stroke);
   const char sign = stroke.is_positive ? '+' : '-';
-  Interpreted own{part.rows.part(kept), part.conditions, part.provenance};
+  Part own = part;
+  own.rows.cut(kept);
   for (double& force : own.rows.force) force = stroke.is_positive ? force : -force;
-  own.provenance.assumed.push_back(
+  own.assume(
       fmt::format("Stroke {} is {:.6g} to {:.6g} s, without the ends at which the force reverses; its force has the "
                   "sign {} in the file.",
                   number, own.rows.time_s.front(), own.rows.time_s.back(), sign));
-  if (const auto moved = moved_m_per_s(part.rows, kept)) {
-    auto warning = compare_speed(part.conditions.speed_m_per_s, *moved, "in this stroke the displacement");
-    if (warning) own.provenance.warnings.push_back(*std::move(warning));
-  }
+  const auto moved = moved_m_per_s(part.rows, kept);
+  if (moved) compare_speed(own, *moved, "in this stroke the displacement");
   return {fmt::format("stroke {} ({})", number, sign), create(std::move(own), file)};
 }
 
@@ -211,7 +335,7 @@ ThrownError no_long_stroke(const std::string& file) {
 }
 
 /// The force at which the direction reverses: zero where the user states it, else midway between both directions.
-double force_at_reversal(const Interpreted& part, const std::vector<Stroke>& strokes) {
+double force_at_reversal(const Part& part, const std::vector<Stroke>& strokes) {
   if (part.conditions.zero_force_N) return 0.0;
   std::vector<double> positive;
   std::vector<double> negative;
@@ -226,7 +350,7 @@ double force_at_reversal(const Interpreted& part, const std::vector<Stroke>& str
 
 /// All strokes of a reciprocating test as one recording: those backward turned, without the ends in which the force
 /// reverses. The clock keeps its gaps there.
-Interpreted pooled(Interpreted part, std::vector<Stroke> strokes, const std::string& file) {
+Part pooled(Part part, std::vector<Stroke> strokes, const std::string& file) {
   std::erase_if(strokes, [](const Stroke& stroke) { return stroke.size() == 0; });
   if (strokes.empty()) throw no_long_stroke(file);
   const double reversal = force_at_reversal(part, strokes);
@@ -248,26 +372,29 @@ Interpreted pooled(Interpreted part, std::vector<Stroke> strokes, const std::str
        fmt::format("the drive reverses (a reciprocating test): {} strokes were analysed together, with "
                    "the force of those backward turned and without the ends of each",
                    strokes.size())});
-  if (speeds_m_per_s.empty()) return part;
-  const double speed_m_per_s = quantile_of(std::move(speeds_m_per_s), 0.5);
-  auto warning = compare_speed(part.conditions.speed_m_per_s, speed_m_per_s, "in the strokes the displacement");
-  if (warning) part.provenance.warnings.push_back(*std::move(warning));
+  if (!speeds_m_per_s.empty()) {
+    compare_speed(part, quantile_of(std::move(speeds_m_per_s), 0.5), "in the strokes the displacement");
+  }
   return part;
 }
 
 }  // namespace
 
-Recording build_recording(Part part, const LoadedFile& file, const Conditions& conditions) {
-  Interpreted one = interpret(std::move(part), file, conditions);
+bool is_negative_throughout(std::span<const double> force) {
+  return 10 * count_negative(force) >= 9 * force.size();
+}
+
+Recording build_recording(Part part, const OpenedFile& file, const Conditions& conditions) {
+  Part one = interpret(std::move(part), file, conditions);
   settle_sign(one);
-  std::vector<Stroke> strokes = find_strokes(one.motion());
+  std::vector<Stroke> strokes = find_strokes(motion_of(one));
   if (!strokes.empty()) one = pooled(std::move(one), std::move(strokes), file.name);
   return create(std::move(one), file.name);
 }
 
-std::vector<NamedRecording> build_strokes(Part part, const LoadedFile& file, const Conditions& conditions) {
-  const Interpreted all = interpret(std::move(part), file, conditions);
-  const std::vector<Stroke> strokes = take_strokes(all.motion());
+std::vector<NamedRecording> build_strokes(Part part, const OpenedFile& file, const Conditions& conditions) {
+  const Part all = interpret(std::move(part), file, conditions);
+  const std::vector<Stroke> strokes = take_strokes(motion_of(all));
   std::vector<std::size_t> wanted;
   for (std::size_t i = 0; i < strokes.size(); ++i) {
     const bool is_wanted = file.options.pieces == Pieces::Strokes ||
@@ -291,146 +418,6 @@ std::vector<NamedRecording> build_strokes(Part part, const LoadedFile& file, con
     }
   }
   return recordings;
-}
-
-namespace {
-
-constexpr std::size_t kBlocks = 64;
-constexpr double kTolerance = 0.05;       // of a stated value against a slope or a load cell's mean
-constexpr double kSpeedTolerance = 0.01;  // of a stated speed against a column of speeds
-constexpr double kClearlyOff = 2.0;       // standard deviations of the column
-constexpr double kMostLoadScatter = 0.1;  // of the load, before its mean says little about the single slip
-
-bool differ(double stated, const Level& measured, double tolerance) {
-  const double bound = std::max(tolerance * stated, kClearlyOff * measured.standard_deviation);
-  return std::abs(stated - measured.value) > bound;
-}
-
-/// The speed of the parts where a displacement moves (median of block slopes, without sign) with the error of that
-/// median, if most of them move at one speed.
-std::optional<Estimate> steady_speed_m_per_s(const Rows& rows) {
-  std::vector<double> speeds = block_speeds_m_per_s(rows.time_s, rows.displacement_m, kBlocks);
-  if (speeds.size() < 4) return std::nullopt;
-  const double fast_m_per_s = quantile_of(speeds, 0.9);
-  std::erase_if(speeds, [&](double v) { return !(v > 0.2 * fast_m_per_s); });  // standing, or about to start
-  if (speeds.size() < 3) return std::nullopt;
-  const double speed_m_per_s = quantile_of(speeds, 0.5);
-  const auto alike =
-      std::ranges::count_if(speeds, [&](double v) { return std::abs(v - speed_m_per_s) <= 0.2 * speed_m_per_s; });
-  const bool is_steady = 10 * alike >= 6 * static_cast<std::ptrdiff_t>(speeds.size());
-  if (!is_steady) return std::nullopt;
-  std::vector<double> off;
-  off.reserve(speeds.size());
-  for (const double v : speeds) off.push_back(std::abs(v - speed_m_per_s));
-  constexpr double kMedianToSe = 1.4826 * 1.2533;  // of a median of deviations to the error of a median
-  const double se_m_per_s = kMedianToSe * quantile_of(off, 0.5) / std::sqrt(static_cast<double>(off.size()));
-  return Estimate{speed_m_per_s, se_m_per_s, std::nullopt, {}};
-}
-
-/// Factors by which speeds are wrong if the unit is confused: mm and cm, min and s, m and mm, m/s and mm/min, mm/s and
-/// m/min.
-constexpr std::array kUnitFactors{10.0, 60.0, 1000.0, 6e4, 1e3 / 60.0};
-
-/// "10mm/min" of a stated "10 mm/s" where the displacement moves at that; else the speed of the displacement.
-std::string speed_to_state(const Conditions& stated, double moved_m_per_s) {
-  const Result<UnitScale> unit = parse_unit(stated.speed_unit, Dimension::Speed);
-  const double number = stated.speed_m_per_s / (unit ? unit.value().scale : 1.0);
-  for (const char* const other : {"mm/min", "mm/s", "um/s", "cm/s", "cm/min", "m/min", "m/s"}) {
-    const double m_per_s = number * parse_unit(other, Dimension::Speed).value().scale;
-    if (std::abs(m_per_s / moved_m_per_s - 1.0) < kTolerance) return fmt::format("{:.6g}{}", number, other);
-  }
-  return fmt::format("{:.6g}m/s", moved_m_per_s);
-}
-
-/// A stated speed that a displacement contradicts by the factor of a mistaken unit.
-std::optional<Error> mistaken_speed(const Conditions& stated, double moved_m_per_s, const std::string& column,
-                                    const std::string& file) {
-  const double stated_m_per_s = stated.speed_m_per_s;
-  const double ratio = std::max(stated_m_per_s / moved_m_per_s, moved_m_per_s / stated_m_per_s);
-  const auto is_near = [&](double factor) { return std::abs(ratio / factor - 1.0) < kTolerance; };
-  if (std::none_of(kUnitFactors.begin(), kUnitFactors.end(), is_near)) return std::nullopt;
-  return Error{"speed_contradicted",
-               fmt::format("{}: the speed is {:.6g} m/s, but {} moves at {:.6g} m/s; the factor {:.4g} suggests "
-                           "another unit; give --speed {}, or correct the unit in the name of that column",
-                           file, stated_m_per_s, column, moved_m_per_s, ratio, speed_to_state(stated, moved_m_per_s))};
-}
-
-ThrownError no_speed(const Choice& choice, const Layout& layout, const std::string& file) {
-  if (!choice.speed) {
-    return ThrownError(
-        {"no_speed",
-         file + ": --speed is missing: give the driving speed, for example --speed 10mm/s (no column contains it)"});
-  }
-  return ThrownError({"speed_varies", fmt::format("{}: {} has no constant speed; read a part of it with --step N, "
-                                                  "--rows A:B or --window T0:T1, or give the speed with --speed",
-                                                  file, describe(layout, choice.speed->column))});
-}
-
-void state_normal_force(StatedConditions& stated, const Rows& rows, const Choice& choice, const Layout& layout) {
-  const auto level = level_of(rows.normal_force_N);
-  if (!level) return;
-  const std::string name = describe(layout, choice.normal_force->column);
-  if (const auto& given = stated.conditions.normal_force_N) {
-    if (!differ(*given, *level, kTolerance)) return;
-    stated.warnings.push_back(
-        {"normal_force_differs",
-         fmt::format("the stated normal force is {:.6g} N, but {} contains {:.6g} N; the stated one is used", *given,
-                     name, level->value)});
-    return;
-  }
-  stated.conditions.normal_force_N = level->value;
-  stated.assumed.push_back(fmt::format("Normal force is {}: {:.6g} N, standard deviation {:.2g} N.", name, level->value,
-                                       level->standard_deviation));
-  if (level->standard_deviation > kMostLoadScatter * level->value || !level->is_steady) {
-    stated.warnings.push_back(
-        {"normal_force_varies", fmt::format("{} varies by more than a tenth of its median of {:.6g} N, which is used "
-                                            "throughout; read a part with a constant load",
-                                            name, level->value)});
-  }
-}
-
-}  // namespace
-
-std::optional<Warning> compare_speed(double stated_m_per_s, double moved_m_per_s, const std::string& what) {
-  const double off_m_per_s = std::abs(moved_m_per_s - stated_m_per_s);
-  if (!std::isfinite(off_m_per_s) || off_m_per_s <= kTolerance * stated_m_per_s) return std::nullopt;
-  return Warning{
-      "speed_differs_from_displacement",
-      fmt::format("the stated speed is {:.6g} m/s, but {} moves at {:.6g} m/s", stated_m_per_s, what, moved_m_per_s)};
-}
-
-StatedConditions state_conditions(const Rows& rows, const Choice& choice, const Layout& layout,
-                                  const Conditions& conditions, const std::string& file) {
-  StatedConditions stated{conditions, {}, {}, {}};
-  double& speed_m_per_s = stated.conditions.speed_m_per_s;
-  const auto measured = level_of(rows.speed_m_per_s);
-  const bool is_wanted = std::exchange(stated.conditions.speed_is_known, true);
-  if (speed_m_per_s == 0.0 && !(measured && measured->is_steady)) {
-    if (is_wanted) throw no_speed(choice, layout, file);
-    speed_m_per_s = 1.0;
-    stated.conditions.speed_is_known = false;
-  } else if (speed_m_per_s == 0.0) {
-    speed_m_per_s = measured->value;
-    stated.assumed.push_back(fmt::format("Speed is {}: {:.6g} m/s, standard deviation {:.2g} m/s.",
-                                         describe(layout, choice.speed->column), speed_m_per_s,
-                                         measured->standard_deviation));
-  } else if (measured && differ(speed_m_per_s, *measured, kSpeedTolerance)) {
-    stated.warnings.push_back(
-        {"speed_differs", fmt::format("the stated speed is {:.6g} m/s, but {} contains {:.6g} m/s; the stated one is "
-                                      "used, and stiffness and spacing depend on it",
-                                      speed_m_per_s, describe(layout, choice.speed->column), measured->value)});
-  }
-  if (choice.displacement && !rows.displacement_m.empty() && stated.conditions.speed_is_known) {
-    if (auto moved = steady_speed_m_per_s(rows)) {
-      const std::string name = describe(layout, choice.displacement->column);
-      if (auto error = mistaken_speed(stated.conditions, *moved->value, name, file))
-        throw ThrownError(*std::move(error));
-      if (auto warning = compare_speed(speed_m_per_s, *moved->value, name)) stated.warnings.push_back(*warning);
-      stated.moved_m_per_s = std::move(moved);
-    }
-  }
-  if (choice.normal_force) state_normal_force(stated, rows, choice, layout);
-  return stated;
 }
 
 }  // namespace slipfit::reading

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <span>
-#include <string>
 #include <vector>
 
 #include "io/layout.hpp"
@@ -15,41 +14,16 @@ namespace slipfit::reading {
 /// The force is measured with the other sign: at least 90 % of the samples are negative.
 bool is_negative_throughout(std::span<const double> force);
 
-/// Returns true if more than half of the samples are negative.
-bool is_mostly_negative(std::span<const double> force);
-
-/// The direction in which the force repeatedly changes much faster than in the other.
-enum class SuddenChanges { None, Falls, Rises };
-
-/// Returns the direction of sudden changes, by the skewness of the changes over some time: far from 0 with one sign,
-/// whichever sixteenth of the trace is left out.
-SuddenChanges sudden_changes(std::span<const double> force);
-
-/// Forces that oppose the motion, and what the columns say of speed and load. Errors: those of check_part,
-/// state_conditions and Recording::create; no_strokes. The strokes of a reciprocating test are one recording.
-Recording build_recording(Part part, const LoadedFile& file, const Conditions& conditions);
+/// Forces that oppose the motion, and what the columns say of speed and load. Errors: those of describe_part
+/// and Recording::create; no_speed, speed_varies, speed_contradicted, no_strokes. The strokes of a reciprocating test
+/// are one recording.
+Recording build_recording(Part part, const OpenedFile& file, const Conditions& conditions);
 
 /// The strokes of a reciprocating test, of those of `file.options.pieces` at most `kMostPieces`, spread evenly. Errors:
 /// those above; no_strokes.
-std::vector<NamedRecording> build_strokes(Part part, const LoadedFile& file, const Conditions& conditions);
+std::vector<NamedRecording> build_strokes(Part part, const OpenedFile& file, const Conditions& conditions);
 
 /// A joint fit of more takes minutes.
 constexpr std::size_t kMostPieces = 16;
-
-/// Speed and load: as stated by the user, as contained in columns, and their agreement.
-struct StatedConditions {
-  Conditions conditions;
-  std::vector<std::string> assumed;
-  Warnings warnings;
-  std::optional<Estimate> moved_m_per_s{};  ///< Provenance
-};
-
-/// Returns speed and load: stated values take precedence, and columns supply the others. Errors: no_speed,
-/// speed_varies, speed_contradicted.
-StatedConditions state_conditions(const Rows& rows, const Choice& choice, const Layout& layout,
-                                  const Conditions& conditions, const std::string& file);
-
-/// Warns if a displacement moves at another speed than the stated one. `what` describes the displacement.
-std::optional<Warning> compare_speed(double stated_m_per_s, double moved_m_per_s, const std::string& what);
 
 }  // namespace slipfit::reading

@@ -56,6 +56,9 @@ std::string list_columns(const Layout& layout) {
   return list + (layout.has_names ? "" : " (without names)");
 }
 
+namespace {
+
+/// Finds a column with any contents. Error: unknown_column.
 std::size_t find_column_of_any(const Layout& layout, const std::string& wanted, const std::string& option,
                                const std::string& file) {
   auto found = columns_called(layout, printable_utf8(wanted));
@@ -72,6 +75,8 @@ std::size_t find_column_of_any(const Layout& layout, const std::string& wanted, 
   return found.front();
 }
 
+}  // namespace
+
 std::size_t find_column(const Layout& layout, const std::string& wanted, const std::string& option,
                         const std::string& file) {
   const std::size_t found = find_column_of_any(layout, wanted, option, file);
@@ -80,6 +85,24 @@ std::size_t find_column(const Layout& layout, const std::string& wanted, const s
                                                        file, layout.first_data_line, describe(layout, found), option)});
 }
 
+namespace {
+
+/// The columns with the highest score above 0 (several where they tie).
+template <class ScoreOf>
+std::vector<std::size_t> best_columns(const Layout& layout, const ScoreOf& score_of) {
+  std::vector<std::size_t> best;
+  int highest = 1;
+  for (std::size_t c = 0; c < layout.columns.size(); ++c) {
+    const int score = score_of(layout.columns[c], c);
+    if (score < highest) continue;
+    if (score > highest) best.clear();
+    highest = score;
+    best.push_back(c);
+  }
+  return best;
+}
+
+/// Finds the column of the time; empty if no column can be it. Error: ambiguous_time_column.
 std::optional<std::size_t> find_time_column(const Layout& layout, const std::string& file) {
   auto found = best_columns(layout, [](const Column& column, std::size_t) {
     if (column.name.role != Role::Time || !column.may_be_numeric()) return 0;
@@ -106,8 +129,6 @@ std::optional<std::size_t> find_time_column(const Layout& layout, const std::str
   }
   return found.empty() ? std::nullopt : std::optional(found.front());
 }
-
-namespace {
 
 /// The arguments of `choose_columns`.
 struct Request {
@@ -222,6 +243,42 @@ std::string counted_clock_sentence(const Layout& layout, double sample_rate_Hz) 
   return sentence;
 }
 
+int score_of_normal_force(const Column& column) {
+  if (!column.is_numeric()) return 0;
+  if (column.name.role == Role::NormalForce) return column.name.rank + 1;
+  return column.name.role == Role::TangentialForce && column.name.rank == 1 && is_load(column.name) ? 1 : 0;
+}
+
+/// Returns, of several possible columns of the tangential force, those whose quotient with the normal force is the
+/// column of friction coefficients; all of them if that does not decide.
+std::vector<std::size_t> those_of_coefficient(const Layout& layout, std::vector<std::size_t> candidates) {
+  constexpr double kTolerance = 0.02;  // filters and printed decimals
+  constexpr std::size_t kFewest = 8;
+  const auto coefficients = best_columns(layout, [](const Column& column, std::size_t) {
+    return column.name.role == Role::FrictionCoefficient && column.is_numeric() ? column.name.rank : 0;
+  });
+  const auto normals =
+      best_columns(layout, [](const Column& column, std::size_t) { return score_of_normal_force(column); });
+  if (coefficients.size() != 1 || normals.size() != 1) return candidates;
+  const std::vector<double>& coefficient = layout.columns[coefficients.front()].values;
+  const std::vector<double>& normal = layout.columns[normals.front()].values;
+  const auto is_its_force = [&](std::size_t c) {
+    std::size_t alike = 0;
+    std::size_t compared = 0;
+    for (std::size_t row = 0; row < layout.columns[c].values.size(); ++row) {
+      const double mu = std::abs(coefficient[row]);
+      const double quotient = std::abs(layout.columns[c].values[row] / normal[row]);
+      if (!std::isfinite(quotient) || !std::isfinite(mu) || mu == 0.0) continue;
+      ++compared;
+      if (std::abs(quotient - mu) <= kTolerance * mu) ++alike;
+    }
+    return compared >= kFewest && 10 * alike >= 8 * compared;
+  };
+  std::vector<std::size_t> found;
+  std::ranges::copy_if(candidates, std::back_inserter(found), is_its_force);
+  return found.empty() ? candidates : found;
+}
+
 /// Candidates for the force, best first in rank; a "load" next to a friction coefficient is the normal load.
 std::vector<std::size_t> force_candidates(const Layout& layout, std::optional<std::size_t> time,
                                           const std::optional<std::string>& force_scale) {
@@ -304,10 +361,15 @@ Channel scaled_channel(const Request& request, std::size_t column, const std::st
 /// A torque over the radius at which the contact lies. Error: no_radius.
 Channel torque_channel(const Request& request, std::size_t column, const std::string& unit, double N_m) {
   const std::string described = describe(request.layout, column);
-  const double radius_m = radius_for_torque(request.options.radius_m, fmt::format("{}: {}", request.file, described));
-  return Channel{column, N_m / radius_m, ForceQuantity::Force_N,
+  const auto& radius_m = request.options.radius_m;
+  if (!radius_m) {
+    throw ThrownError({"no_radius", fmt::format("{}: {} is a torque; give the distance of the contact from the axis "
+                                                "with --radius, for example --radius 12mm",
+                                                request.file, described)});
+  }
+  return Channel{column, N_m / *radius_m, ForceQuantity::Force_N,
                  fmt::format("Force is {}, a torque (unit {}), divided by the radius of {} m.", described,
-                             printable_utf8(unit), radius_m)};
+                             printable_utf8(unit), *radius_m)};
 }
 
 /// Returns advice for a unit that is not a force.
@@ -365,38 +427,6 @@ std::vector<std::string> layout_sentences(const Layout& layout) {
   return sentences;
 }
 
-}  // namespace
-
-Choice choose_columns(const Layout& layout, const ReadOptions& options, double speed_m_per_s, const std::string& file) {
-  if (options.time_column && options.sample_rate_Hz) {
-    throw ThrownError(
-        {"conflicting_options", file + ": both a time column and a sampling rate are given; leave out one of them"});
-  }
-  const Request request{layout, options, file, speed_m_per_s};
-  Choice choice;
-  choice.time = choose_time(request);
-  const std::size_t column = choose_force(request, choice.time ? std::optional(choice.time->column) : std::nullopt);
-  if (choice.time && choice.time->column == column) {
-    throw ThrownError(
-        {"conflicting_options", fmt::format("{}: {} cannot be both time and force; {}; choose two columns", file,
-                                            describe(layout, column), list_columns(layout))});
-  }
-  choice.force = force_channel(request, column);
-  choice.assumed = layout_sentences(layout);
-  choice.assumed.push_back(choice.time ? choice.time->sentence
-                                       : counted_clock_sentence(layout, *options.sample_rate_Hz));
-  choice.assumed.push_back(choice.force.sentence);
-  return with_side_columns(std::move(choice), layout, options, file);
-}
-
-namespace {
-
-int score_of_normal_force(const Column& column) {
-  if (!column.is_numeric()) return 0;
-  if (column.name.role == Role::NormalForce) return column.name.rank + 1;
-  return column.name.role == Role::TangentialForce && column.name.rank == 1 && is_load(column.name) ? 1 : 0;
-}
-
 /// A column in the unit of its name, without one in SI.
 template <Dimension dimension>
 std::optional<Channel> in_unit(const Layout& layout, std::size_t column, const ReadOptions& /*options*/) {
@@ -452,8 +482,10 @@ const std::array kSideRoles = std::to_array<SideRole>(
       },
       true}});
 
-std::optional<Channel> choose(const SideRole& role, const Layout& layout, const ReadOptions& options,
-                              const Choice& choice, const std::string& file) {
+/// A column that was not selected is used if its name and unit are unambiguous, and is otherwise no reason to refuse a
+/// file.
+std::optional<Channel> choose_side(const SideRole& role, const Layout& layout, const ReadOptions& options,
+                                   const Choice& choice, const std::string& file) {
   if (role.asked != nullptr && options.*role.asked) {
     const std::size_t column = find_column(layout, *(options.*role.asked), role.option, file);
     if (auto channel = role.in_SI(layout, column, options)) return channel;
@@ -478,42 +510,26 @@ std::optional<WhereFilter> choose_where(const Layout& layout, const ReadOptions&
 
 }  // namespace
 
-std::vector<std::size_t> those_of_coefficient(const Layout& layout, std::vector<std::size_t> candidates) {
-  constexpr double kTolerance = 0.02;  // filters and printed decimals
-  constexpr std::size_t kFewest = 8;
-  const auto coefficients = best_columns(layout, [](const Column& column, std::size_t) {
-    return column.name.role == Role::FrictionCoefficient && column.is_numeric() ? column.name.rank : 0;
-  });
-  const auto normals =
-      best_columns(layout, [](const Column& column, std::size_t) { return score_of_normal_force(column); });
-  if (coefficients.size() != 1 || normals.size() != 1) return candidates;
-  const std::vector<double>& coefficient = layout.columns[coefficients.front()].values;
-  const std::vector<double>& normal = layout.columns[normals.front()].values;
-  const auto is_its_force = [&](std::size_t c) {
-    std::size_t alike = 0;
-    std::size_t compared = 0;
-    for (std::size_t row = 0; row < layout.columns[c].values.size(); ++row) {
-      const double mu = std::abs(coefficient[row]);
-      const double quotient = std::abs(layout.columns[c].values[row] / normal[row]);
-      if (!std::isfinite(quotient) || !std::isfinite(mu) || mu == 0.0) continue;
-      ++compared;
-      if (std::abs(quotient - mu) <= kTolerance * mu) ++alike;
-    }
-    return compared >= kFewest && 10 * alike >= 8 * compared;
-  };
-  std::vector<std::size_t> found;
-  std::ranges::copy_if(candidates, std::back_inserter(found), is_its_force);
-  return found.empty() ? candidates : found;
-}
-
-double radius_for_torque(const std::optional<double>& radius_m, const std::string& place) {
-  if (radius_m) return *radius_m;
-  throw ThrownError({"no_radius", place + " is a torque; give the distance of the contact from the axis with --radius, "
-                                          "for example --radius 12mm"});
-}
-
-Choice with_side_columns(Choice choice, const Layout& layout, const ReadOptions& options, const std::string& file) {
-  for (const SideRole& role : kSideRoles) choice.*role.channel = choose(role, layout, options, choice, file);
+Choice choose_columns(const Layout& layout, const ReadOptions& options, double speed_m_per_s, const std::string& file) {
+  if (options.time_column && options.sample_rate_Hz) {
+    throw ThrownError(
+        {"conflicting_options", file + ": both a time column and a sampling rate are given; leave out one of them"});
+  }
+  const Request request{layout, options, file, speed_m_per_s};
+  Choice choice;
+  choice.time = choose_time(request);
+  const std::size_t column = choose_force(request, choice.time ? std::optional(choice.time->column) : std::nullopt);
+  if (choice.time && choice.time->column == column) {
+    throw ThrownError(
+        {"conflicting_options", fmt::format("{}: {} cannot be both time and force; {}; choose two columns", file,
+                                            describe(layout, column), list_columns(layout))});
+  }
+  choice.force = force_channel(request, column);
+  choice.assumed = layout_sentences(layout);
+  choice.assumed.push_back(choice.time ? choice.time->sentence
+                                       : counted_clock_sentence(layout, *options.sample_rate_Hz));
+  choice.assumed.push_back(choice.force.sentence);
+  for (const SideRole& role : kSideRoles) choice.*role.channel = choose_side(role, layout, options, choice, file);
   choice.where = choose_where(layout, options, file);
   return choice;
 }

@@ -17,32 +17,10 @@ std::string describe(const Layout& layout, std::size_t column);
 /// "the columns are 1 'time', 2 'Fx', 3 'Fy'".
 std::string list_columns(const Layout& layout);
 
-/// Finds a column with any contents by name (exact, then without unit or case) or by its 1-based number. Error:
-/// unknown_column.
-std::size_t find_column_of_any(const Layout& layout, const std::string& wanted, const std::string& option,
-                               const std::string& file);
-
-/// Finds a column of numbers. Errors: unknown_column, column_not_numeric.
+/// Finds a column of numbers by name (exact, then without unit or case) or by its 1-based number. Errors:
+/// unknown_column, column_not_numeric.
 std::size_t find_column(const Layout& layout, const std::string& wanted, const std::string& option,
                         const std::string& file);
-
-/// The columns with the highest score above 0 (several where they tie).
-template <class ScoreOf>
-std::vector<std::size_t> best_columns(const Layout& layout, const ScoreOf& score_of) {
-  std::vector<std::size_t> best;
-  int highest = 1;
-  for (std::size_t c = 0; c < layout.columns.size(); ++c) {
-    const int score = score_of(layout.columns[c], c);
-    if (score < highest) continue;
-    if (score > highest) best.clear();
-    highest = score;
-    best.push_back(c);
-  }
-  return best;
-}
-
-/// Finds the column of the time; empty if no column can be it. Error: ambiguous_time_column.
-std::optional<std::size_t> find_time_column(const Layout& layout, const std::string& file);
 
 /// A column by its 0-based index, and what turns its numbers into SI.
 struct Channel {
@@ -77,17 +55,5 @@ struct Choice {
 /// ambiguous_force_column, unknown_unit, conflicting_options. `file` is how messages call the file. A displacement over
 /// `speed_m_per_s` (0: not known) replaces a missing clock.
 Choice choose_columns(const Layout& layout, const ReadOptions& options, double speed_m_per_s, const std::string& file);
-
-/// Returns the radius by which a torque is divided to give the force. `place` starts the message. Error: no_radius.
-double radius_for_torque(const std::optional<double>& radius_m, const std::string& place);
-
-/// The columns other than time and force: normal force, speed, displacement, numbers of steps, the column of --where. A
-/// column that was not selected is used if its name and unit are unambiguous, and is otherwise no reason to refuse a
-/// file. Errors: unknown_column, column_not_numeric, unknown_unit, conflicting_options.
-Choice with_side_columns(Choice choice, const Layout& layout, const ReadOptions& options, const std::string& file);
-
-/// Returns, of several possible columns of the tangential force, those whose quotient with the normal force is the
-/// column of friction coefficients; all of them if that does not decide.
-std::vector<std::size_t> those_of_coefficient(const Layout& layout, std::vector<std::size_t> candidates);
 
 }  // namespace slipfit::reading

@@ -67,23 +67,25 @@ std::vector<StepInfo> infos_of(const Rows& rows, std::span<const Step> steps, bo
   return infos;
 }
 
-/// Returns the columns that can be chosen; if none can, any column of numbers, so that rows and steps are still
+/// Chooses the columns that can be chosen; if none can, any column of numbers, so that rows and steps are still
 /// reported.
-Choice choice_for(const Layout& layout, const ReadOptions& options, FileInfo& info, const std::string& file) {
-  auto chosen = result_of([&] { return choose_columns(layout, options, 0.0, file); });
+void choose_for(OpenedFile& file, FileInfo& info) {
+  const Layout& layout = file.layout;
+  auto chosen = result_of([&] { return choose_columns(layout, file.options, 0.0, file.name); });
   if (chosen) {
-    info.taken = taken_columns(layout, chosen.value());
-    return std::move(chosen).value();
+    file.choice = std::move(chosen).value();
+    info.taken = taken_columns(layout, file.choice);
+    return;
   }
   info.refusal = chosen.error();
   const auto numeric = std::ranges::find_if(layout.columns, [](const Column& column) { return column.is_numeric(); });
-  Choice any;
-  any.force.column = numeric == layout.columns.end() ? 0 : static_cast<std::size_t>(numeric - layout.columns.begin());
-  return any;
+  if (numeric != layout.columns.end()) {
+    file.choice.force.column = static_cast<std::size_t>(numeric - layout.columns.begin());
+  }
 }
 
 /// The recording that would be read, where it can be; at any speed if no column contains it.
-void add_recording(FileInfo& info, Part part, const LoadedFile& file) {
+void add_recording(FileInfo& info, Part part, const OpenedFile& file) {
   info.strokes = std::max<std::size_t>(1, find_strokes({part.rows.force, part.rows.displacement_m}).size());
   Conditions conditions;
   conditions.speed_m_per_s = info.taken.speed_m_per_s.value_or(1.0);
@@ -95,75 +97,64 @@ void add_recording(FileInfo& info, Part part, const LoadedFile& file) {
   }
 }
 
-FileInfo inspect(OpenedFile opened, const std::string& name, const ReadOptions& options) {
+FileInfo inspect(const Container& container, const std::string& name, const ReadOptions& options) {
+  OpenedFile file = open_file(container, name, options);
   FileInfo info;
-  const TableKind kind = opened.source->table_kind();
-  if (kind == TableKind::Sheet) info.sheets = opened.source->tables();
-  if (kind == TableKind::Variable) info.variables = opened.source->tables();
-  info.columns = columns_of(opened.layout);
-  Choice choice = choice_for(opened.layout, options, info, name);
-  LoadedFile file = load_rows(std::move(opened), std::move(choice), options);
+  info.columns = columns_of(file.layout);
+  choose_for(file, info);
+  load_rows(file);
   info.rows = file.rows.count;
   const bool has_clock = file.choice.time || options.sample_rate_Hz;
   const std::vector<Step> steps = find_steps(file.rows);
   info.steps = infos_of(file.rows, steps, has_clock);
   info.is_one_recording = file.rows.time_s.empty() || are_one_recording(file.rows, steps);
   info.assumed = file.choice.assumed;
-  Part part = take_part(std::move(file.rows), options, name);
+  Part part = take_part(file);
   const Rows& taken = part.rows;
   const double step_s = median_positive_step(taken.time_s);
   if (has_clock && step_s > 0.0) info.sample_rate_Hz = 1.0 / step_s;
   const auto speed = level_of(taken.speed_m_per_s);
   if (speed && speed->is_steady) info.taken.speed_m_per_s = speed->value;
-  info.assumed.insert(info.assumed.end(), part.assumed.begin(), part.assumed.end());
+  info.assumed.insert(info.assumed.end(), part.provenance.assumed.begin(), part.provenance.assumed.end());
   if (!info.refusal) add_recording(info, std::move(part), file);
   return info;
-}
-
-FileInfo inspect(const std::filesystem::path& path, const std::string& name, const ReadOptions& options) {
-  check_options(options, name);
-  return inspect(open_file(path, options), name, options);
-}
-
-/// Describes a file that does not contain several tables.
-TableInfo inspect_whole(TextStream file, const std::string& name, const ReadOptions& options) {
-  auto info =
-      with_errors_of_reading(name, [&] { return inspect(open_file(std::move(file), name, options), name, options); });
-  return {"", options, std::move(info)};
 }
 
 std::vector<TableInfo> inspect_each(const std::filesystem::path& path, const std::string& name,
                                     const ReadOptions& options) {
   check_options(options, name);
-  TextStream file = open_plain(path);
-  const TableKind kind = options.sheet || options.variable ? TableKind::One : table_kind_of(file);
+  const Container file = open_container(open_plain(path), name);
+  std::vector<std::string> names;
+  if (!options.sheet && !options.variable) names = file.tables();
   std::vector<TableInfo> tables;
-  if (kind == TableKind::One) {
-    tables.push_back(inspect_whole(std::move(file), name, options));
-  } else {
-    visit_tables(std::move(file), name, [&](const PackedTable& table) {
-      const std::string place = name + " ('" + printable_utf8(table.name) + "')";
-      auto info = with_errors_of_reading(
-          place, [&] { return inspect(open_file(table.open(), place, options), place, options); });
-      TableInfo& added = tables.emplace_back(TableInfo{table.name, options, std::move(info)});
-      (kind == TableKind::Sheet ? added.options.sheet : added.options.variable) = table.name;
-    });
-  }
-  for (TableInfo& table : tables) {
-    if (table.info) {
-      FileInfo known = std::move(table.info).value();
+  const auto add = [&](const std::string& table, const std::string& place, const ReadOptions& selected) {
+    auto info = with_errors_of_reading(place, [&] {
+      FileInfo known = inspect(file, place, selected);
       known.recording.reset();
-      table.info = std::move(known);
-    }
+      return known;
+    });
+    tables.push_back({table, selected, std::move(info)});
+  };
+  if (names.empty()) add("", name, options);
+  for (const std::string& table : names) {
+    ReadOptions selected = options;
+    selected.*file.choice = table;
+    add(table, name + " ('" + printable_utf8(table) + "')", selected);
   }
   return tables;
 }
 
 }  // namespace
 
-Result<FileInfo> inspect_recording(const std::filesystem::path& file, const ReadOptions& options) {
-  const std::string name = name_of_file(file);
-  return with_errors_of_reading(name, [&] { return inspect(file, name, options); });
+Result<FileInfo> inspect_recording(const std::filesystem::path& path, const ReadOptions& options) {
+  const std::string name = name_of_file(path);
+  return with_errors_of_reading(name, [&] {
+    check_options(options, name);
+    const Container file = open_container(open_plain(path), name);
+    FileInfo info = inspect(file, name, options);
+    (file.choice == &ReadOptions::sheet ? info.sheets : info.variables) = file.tables();
+    return info;
+  });
 }
 
 Result<std::vector<TableInfo>> inspect_tables(const std::filesystem::path& file, const ReadOptions& options) {

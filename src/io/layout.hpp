@@ -47,29 +47,10 @@ struct Layout {
 
 std::vector<std::string_view> split_lines(std::string_view text);
 
-/// Lines to judge by: of those that hold a digit the last ones, and some spread over the rest (which may be console
-/// text).
-std::vector<std::string_view> choose_samples(const std::vector<std::string_view>& lines);
-
-/// The dialect under which most of the lines are rows of numbers; nothing where none makes any.
-std::optional<Dialect> find_dialect(const std::vector<std::string_view>& lines);
-
 /// Returns true if the comma is both column separator and decimal sign: "0,001,0,51" below two names.
 bool is_comma_twice(const std::vector<std::string_view>& lines, const Layout& layout);
 
 /// Returns the layout, or nothing if the lines contain no rows of numbers.
 std::optional<Layout> find_layout(const std::vector<std::string_view>& lines);
-
-/// The names row and the units row above the data, as cells; empty where there is none.
-struct Header {
-  std::vector<std::string_view> names;
-  std::vector<std::string_view> units;
-  std::string_view line;  ///< that of the names, else that of the units
-  std::size_t lines = 0;
-};
-
-/// Looks at the two lines above line `data` (an index into `lines`) that hold a letter, a digit or a percent sign.
-Header find_header(const std::vector<std::string_view>& lines, std::size_t data, const Dialect& dialect,
-                   std::size_t columns);
 
 }  // namespace slipfit::reading

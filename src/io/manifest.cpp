@@ -6,26 +6,74 @@
 #include <array>
 #include <cctype>
 #include <cmath>
+#include <cstddef>
 #include <exception>
+#include <optional>
 #include <set>
+#include <string>
 #include <string_view>
 #include <unordered_map>
 #include <utility>
+#include <vector>
 
 #include "core/thrown_error.hpp"
 #include "core/word_list.hpp"
 #include "io/cells.hpp"
-#include "io/manifest_columns.hpp"
 #include "io/message.hpp"
 #include "io/text_lines.hpp"
 #include "io/text_source.hpp"
+#include "slipfit/core/units.hpp"
+#include "slipfit/io/manifest_entry.hpp"
+
+namespace slipfit::reading {
+
+/// A property of a recording that can be stated: one table for manifests, the command line and programs that state it
+/// as text.
+struct ManifestField {
+  enum class Bound { AboveZero, NotNegative, None };
+  enum class Need { Nothing, Column, Value };  ///< of a manifest
+  using SetNumber = void(ManifestEntry&, double);
+  using SetText = void(ManifestEntry&, const std::string&);
+
+  RecordingOption said;
+  std::string_view suffix{};             ///< behind the column's name: its SI unit
+  std::optional<Dimension> dimension{};  ///< empty: text
+  Bound bound = Bound::None;
+  SetNumber* set_number = nullptr;  ///< nothing and `dimension`: a window
+  SetText* set_text = nullptr;
+  Need need = Need::Nothing;
+
+  [[nodiscard]] std::string full_name() const { return std::string(said.column) + std::string(suffix); }
+};
+
+/// A column that is read: its position, its name, and its conversion to SI.
+struct ManifestColumn {
+  const ManifestField* field = nullptr;
+  std::size_t index = 0;
+  std::string name;             ///< as in the file
+  std::optional<double> scale;  ///< empty: no unit in the name, then a number is in SI or brings its unit
+  std::string unit;             ///< in the name, other than SI
+};
+
+struct ManifestColumns {
+  std::vector<ManifestColumn> read;
+  std::vector<std::string> ignored;
+  std::size_t count = 0;  ///< of all columns
+};
+
+}  // namespace slipfit::reading
 
 namespace slipfit {
-
-namespace reading {
 namespace {
 
-// What a cell of text sets, or the error that it is.
+using namespace reading;
+
+/// Returns the error of a cell: "bad value 'x', expected a number".
+ThrownError refusal(const char* code, const std::string& cell, const char* expected) {
+  return ThrownError({code, fmt::format("bad value '{}', expected {}", printable_utf8(cell), expected)});
+}
+
+// What a cell of text sets. Throws where it cannot be that.
 
 ManifestEntry& owner_of(auto ManifestEntry::* /*member*/, ManifestEntry& entry) {
   return entry;
@@ -43,49 +91,44 @@ void set_number_of(ManifestEntry& entry, double number) {
 }
 
 template <auto member>
-std::optional<Error> set_text_of(ManifestEntry& entry, const std::string& cell) {
+void set_text_of(ManifestEntry& entry, const std::string& cell) {
   owner_of(member, entry).*member = cell;
-  return std::nullopt;
 }
 
-std::optional<Error> set_id(ManifestEntry& entry, const std::string& cell) {
+void set_id(ManifestEntry& entry, const std::string& cell) {
   const bool has_slash = cell.find_first_of("/\\") != std::string::npos;
   const bool has_control =
       std::ranges::any_of(cell, [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; });
   if (has_slash || has_control || cell.starts_with("group:")) {
-    return refusal("bad_id", cell, "a name without slash or control character that does not start with 'group:'");
+    throw refusal("bad_id", cell, "a name without slash or control character that does not start with 'group:'");
   }
   entry.id = to_utf8(cell);
-  return std::nullopt;
 }
 
 template <auto Labels::*target>
-std::optional<Error> set_label(ManifestEntry& entry, const std::string& cell) {
+void set_label(ManifestEntry& entry, const std::string& cell) {
   entry.conditions.labels.*target = to_utf8(cell);
-  return std::nullopt;
 }
 
-std::optional<Error> set_force_view(ManifestEntry& entry, const std::string& cell) {
+void set_force_view(ManifestEntry& entry, const std::string& cell) {
   constexpr auto kViews = std::to_array<std::pair<std::string_view, ForceView>>(
       {{"spring", ForceView::Spring}, {"transmitted", ForceView::Transmitted}, {"contact", ForceView::Contact}});
   const auto* const view = std::ranges::find_if(kViews, [&](const auto& v) { return v.first == cell; });
-  if (view == kViews.end()) return refusal("unknown_force_view", cell, "spring, transmitted or contact");
+  if (view == kViews.end()) throw refusal("unknown_force_view", cell, "spring, transmitted or contact");
   entry.conditions.force_view = view->second;
-  return std::nullopt;
 }
 
-std::optional<Error> set_drift(ManifestEntry& entry, const std::string& cell) {
+void set_drift(ManifestEntry& entry, const std::string& cell) {
   constexpr auto kReadings = std::to_array<std::pair<std::string_view, LevelReading>>(
       {{"sensor", LevelReading::Sensor}, {"friction", LevelReading::Friction}, {"none", LevelReading::None}});
   const auto* const reading =
       std::find_if(kReadings.begin(), kReadings.end(), [&](const auto& r) { return r.first == cell; });
-  if (reading == kReadings.end()) return refusal("unknown_drift", cell, "sensor, friction or none");
+  if (reading == kReadings.end()) throw refusal("unknown_drift", cell, "sensor, friction or none");
   entry.conditions.drift = reading->second;
-  return std::nullopt;
 }
 
 /// "4, 200 Hz": order and corner of a Butterworth response.
-std::optional<Error> set_sensor_filter(ManifestEntry& entry, const std::string& cell) {
+void set_sensor_filter(ManifestEntry& entry, const std::string& cell) {
   const std::size_t comma = cell.find_first_of(",;");
   const double order = plain_number(std::string_view(cell).substr(0, comma), false);
   const bool is_order = order >= 1.0 && order <= static_cast<double>(kHighestFilterOrder) && order == std::floor(order);
@@ -93,64 +136,61 @@ std::optional<Error> set_sensor_filter(ManifestEntry& entry, const std::string& 
                                        ? Result<double>(Error{"bad_sensor_filter", ""})
                                        : parse_quantity(std::string_view(cell).substr(comma + 1), Dimension::Frequency);
   if (!is_order || !corner_Hz || !(corner_Hz.value() > 0.0)) {
-    return refusal("bad_sensor_filter", cell, "an order from 1 to 8 and a corner frequency, such as '4, 200 Hz'");
+    throw refusal("bad_sensor_filter", cell, "an order from 1 to 8 and a corner frequency, such as '4, 200 Hz'");
   }
   if (entry.conditions.sensor_bandwidth_Hz) {
-    return refusal("conflicting_sensor", cell, "either a bandwidth (first order) or a filter");
+    throw refusal("conflicting_sensor", cell, "either a bandwidth (first order) or a filter");
   }
   entry.conditions.sensor_bandwidth_Hz = corner_Hz.value();
   entry.conditions.sensor_filter_order = static_cast<std::size_t>(order);
-  return std::nullopt;
 }
 
 template <Dimension dimension, std::optional<std::string> ReadOptions::*target>
-std::optional<Error> set_unit(ManifestEntry& entry, const std::string& cell) {
+void set_unit(ManifestEntry& entry, const std::string& cell) {
   const Result<UnitScale> unit = parse_unit(cell, dimension);
   const bool is_other = dimension == Dimension::Force &&
                         (parse_unit(cell, Dimension::Dimensionless) || parse_unit(cell, Dimension::Torque));
-  if (!unit && !is_other) return Error{"unknown_unit", printable_utf8(unit.error().message)};
+  if (!unit && !is_other) throw ThrownError({"unknown_unit", printable_utf8(unit.error().message)});
   entry.options.*target = cell;
-  return std::nullopt;
 }
 
-std::optional<Error> set_step(ManifestEntry& entry, const std::string& cell) {
+void set_step(ManifestEntry& entry, const std::string& cell) {
   const double step = plain_number(cell, false);
   if (!(step >= 0.0 && step < 1e9 && step == std::floor(step)))
-    return refusal("bad_step", cell, "the number of a step as listed by slipfit info");
+    throw refusal("bad_step", cell, "the number of a step as listed by slipfit info");
   entry.options.step = static_cast<std::size_t>(step);
-  return std::nullopt;
 }
 
-std::optional<Error> set_rows(ManifestEntry& entry, const std::string& cell) {
+void set_rows(ManifestEntry& entry, const std::string& cell) {
   entry.options.rows = parse_row_range(cell);
-  return entry.options.rows ? std::nullopt : refusal("bad_rows", cell, "A:B with 1 <= A < B, rows counted from 1");
+  if (!entry.options.rows) throw refusal("bad_rows", cell, "A:B with 1 <= A < B, rows counted from 1");
 }
 
-std::optional<Error> set_where(ManifestEntry& entry, const std::string& cell) {
+void set_where(ManifestEntry& entry, const std::string& cell) {
   entry.options.where = parse_column_value(cell);
-  return entry.options.where ? std::nullopt : refusal("bad_where", cell, "COLUMN=VALUE");
+  if (!entry.options.where) throw refusal("bad_where", cell, "COLUMN=VALUE");
 }
 
 /// Strokes or segments.
-std::optional<Error> set_pieces(ManifestEntry& entry, const std::string& cell, Pieces pieces) {
-  if (entry.options.pieces != Pieces::One) return refusal("conflicting_pieces", cell, "either strokes or segments");
+void set_pieces(ManifestEntry& entry, const std::string& cell, Pieces pieces) {
+  if (entry.options.pieces != Pieces::One) throw refusal("conflicting_pieces", cell, "either strokes or segments");
   entry.options.pieces = pieces;
-  return std::nullopt;
 }
 
-std::optional<Error> set_strokes(ManifestEntry& entry, const std::string& cell) {
+void set_strokes(ManifestEntry& entry, const std::string& cell) {
   const auto strokes = parse_strokes(cell);
-  return strokes ? set_pieces(entry, cell, *strokes) : refusal("bad_strokes", cell, "both, positive or negative");
+  if (!strokes) throw refusal("bad_strokes", cell, "both, positive or negative");
+  set_pieces(entry, cell, *strokes);
 }
 
-std::optional<Error> set_segments(ManifestEntry& entry, const std::string& cell) {
-  if (cell == "no") return std::nullopt;
-  return cell == "yes" ? set_pieces(entry, cell, Pieces::Segments) : refusal("bad_segments", cell, "yes or no");
+void set_segments(ManifestEntry& entry, const std::string& cell) {
+  if (cell == "yes") return set_pieces(entry, cell, Pieces::Segments);
+  if (cell != "no") throw refusal("bad_segments", cell, "yes or no");
 }
 
-std::optional<Error> set_force_scale(ManifestEntry& entry, const std::string& cell) {
+void set_force_scale(ManifestEntry& entry, const std::string& cell) {
+  if (!parse_force_scale(cell)) throw refusal("unknown_unit", cell, "newtons per unit, such as 5 N/V");
   entry.options.force_scale = cell;
-  return parse_force_scale(cell) ? std::nullopt : refusal("unknown_unit", cell, "newtons per unit, such as 5 N/V");
 }
 
 using Bound = ManifestField::Bound;
@@ -269,12 +309,7 @@ constexpr std::array kFields = std::to_array<ManifestField>({
                set_segments),
 });
 
-}  // namespace
-
-std::span<const ManifestField> manifest_fields() {
-  return kFields;
-}
-
+/// The text with the manifest's columns in place of the options of the command line that say the same.
 std::string with_columns_for_options(std::string text) {
   for (const ManifestField& field : kFields) {
     const std::string_view option = field.said.name();
@@ -290,19 +325,185 @@ std::string with_columns_for_options(std::string text) {
   return text;
 }
 
-}  // namespace reading
-
-std::vector<RecordingOption> recording_options() {
-  std::vector<RecordingOption> options;
-  for (const reading::ManifestField& field : reading::kFields) {
-    if (!field.said.help.empty()) options.push_back(field.said);
-  }
-  return options;
+/// "mm_per_s" is "mm/s".
+std::string spelled_out(std::string_view unit) {
+  std::string text(unit);
+  for (auto at = text.find("_per_"); at != std::string::npos; at = text.find("_per_")) text.replace(at, 5, "/");
+  return text;
 }
 
-namespace {
+/// The unit after the base of a column name: none, "[mm/s]", "(mm/s)" or "_mm_per_s".
+struct UnitText {
+  std::string unit;
+  bool in_brackets = false;
+};
 
-using namespace reading;
+std::optional<UnitText> unit_behind(std::string_view name, std::string_view base) {
+  const auto same = [](char a, char b) { return a == std::tolower(static_cast<unsigned char>(b)); };
+  if (name.size() < base.size() || !std::equal(base.begin(), base.end(), name.begin(), same)) return std::nullopt;
+  const std::string_view rest = trim(name.substr(base.size()));
+  if (rest.empty()) return UnitText{};
+  if (rest.size() > 2 && ((rest.front() == '[' && rest.back() == ']') || (rest.front() == '(' && rest.back() == ')'))) {
+    return UnitText{std::string(trim(rest.substr(1, rest.size() - 2))), true};
+  }
+  return rest.front() == '_' ? std::optional(UnitText{spelled_out(rest.substr(1)), false}) : std::nullopt;
+}
+
+/// Nothing where the name is unknown. Error: unknown_unit, in brackets only ("speed_old" is some other column).
+std::optional<ManifestColumn> recognise(const std::string& name, std::size_t index, const std::string& place) {
+  for (const ManifestField& field : kFields) {
+    const auto text = unit_behind(name, field.said.column);
+    if (!text) continue;
+    if (text->unit.empty()) return ManifestColumn{&field, index, printable_utf8(name), std::nullopt, {}};
+    if (!field.dimension) continue;
+    const std::string shown = printable_utf8(text->unit);
+    if (const Result<UnitScale> unit = parse_unit(text->unit, *field.dimension)) {
+      const bool is_si = unit.value().scale == 1.0;
+      return ManifestColumn{&field, index, printable_utf8(name), unit.value().scale, is_si ? std::string() : shown};
+    } else if (text->in_brackets) {
+      const bool is_rotation =
+          *field.dimension == Dimension::Speed && parse_unit(text->unit, Dimension::AngularSpeed).ok();
+      const std::string cause =
+          is_rotation ? fmt::format(
+                            "'{}' is a rotation, expected the speed at the contact (rotation in rad/s times the "
+                            "radius), such as speed [mm/s]",
+                            shown)
+                      : printable_utf8(unit.error().message);
+      throw ThrownError({"unknown_unit", fmt::format("{}: column '{}': {}", place, printable_utf8(name), cause)});
+    }
+  }
+  return std::nullopt;
+}
+
+const ManifestColumn* find_read(const ManifestColumns& columns, const ManifestField* field) {
+  const auto found =
+      std::ranges::find_if(columns.read, [field](const ManifestColumn& column) { return column.field == field; });
+  return found == columns.read.end() ? nullptr : &*found;
+}
+
+/// The quantity to which a standard error belongs, which is read first, and the way it is stated; empty if the column
+/// is not a standard error.
+struct Measured {
+  double value = 0.0;  ///< 0: not stated
+  const char* absent = nullptr;
+  const char* expected = nullptr;
+};
+std::optional<Measured> measured_by(std::string_view column, const ManifestEntry& entry) {
+  if (column == "speed_se") {
+    return Measured{entry.conditions.speed_m_per_s, "no_speed",
+                    "a speed as well (--speed), of which it is a percentage"};
+  }
+  if (column == "mass_se") {
+    return Measured{entry.conditions.mass_kg.value_or(0.0), "no_mass",
+                    "a mass as well (--mass), of which it is a percentage"};
+  }
+  return std::nullopt;
+}
+
+/// A speed as it is, or a rotation times the radius, which is read before it.
+Result<double> speed_in(const std::string& text, const ManifestEntry& entry) {
+  const auto rotation = parse_quantity(text, Dimension::AngularSpeed);
+  Result<double> speed = parse_quantity(text, Dimension::Speed);
+  if (speed || !rotation) return speed;
+  if (entry.options.radius_m) return rotation.value() * *entry.options.radius_m;
+  return Error{"out_of_range",
+               fmt::format("'{}' is a rotation: add --radius, the distance of the contact from the axis", text)};
+}
+
+/// In SI: plain where the name has a unit, else a number that may bring its own.
+double number_in(const std::string& text, const ManifestEntry& entry, const ManifestColumn& column,
+                 bool decimal_comma) {
+  const ManifestField& field = *column.field;
+  if (column.scale) {
+    const Cell number = read_cell(text, decimal_comma && text.find(',') != std::string::npos);
+    if (number.kind == CellKind::Number && number.tag.empty()) return number.value * *column.scale;
+    throw refusal("bad_number", text, "a plain number in the unit of the column's name");
+  }
+  const auto share = parse_quantity(text, Dimension::Dimensionless);
+  const std::optional<Measured> measured = measured_by(field.said.column, entry);
+  if (measured && text.ends_with('%') && share) {
+    if (measured->value > 0.0) return share.value() * measured->value;
+    throw refusal(measured->absent, text, measured->expected);
+  }
+  const Result<double> value =
+      field.dimension == Dimension::Speed ? speed_in(text, entry) : parse_quantity(text, *field.dimension);
+  if (value) return value.value();
+  throw ThrownError({value.error().code, printable_utf8(value.error().message)});
+}
+
+void set_number(ManifestEntry& entry, const ManifestColumn& column, const std::string& cell, bool decimal_comma) {
+  const double number = number_in(cell, entry, column, decimal_comma);
+  const bool is_too_low = column.field->bound == Bound::AboveZero && !(number > 0.0);
+  if (is_too_low || (column.field->bound == Bound::NotNegative && number < 0.0)) {
+    throw ThrownError(
+        {"out_of_range", fmt::format("'{}' is {} zero", printable_utf8(cell), is_too_low ? "not above" : "below")});
+  }
+  if (!std::isfinite(number)) throw refusal("bad_number", cell, "a finite number");
+  column.field->set_number(entry, number);
+  if (column.field->said.column == "speed") {
+    entry.conditions.speed_unit = column.scale ? column.unit : unit_in(cell);
+  }
+}
+
+void set_window(ManifestEntry& entry, const ManifestColumn& column, const std::string& cell, bool decimal_comma) {
+  const auto wrong = refusal("bad_window", cell, "T0:T1 with T0 < T1, on the recording's own clock");
+  const std::size_t colon = cell.find(':');
+  if (colon == std::string::npos) throw wrong;
+  const double begin_s = number_in(cell.substr(0, colon), entry, column, decimal_comma);
+  const double end_s = number_in(cell.substr(colon + 1), entry, column, decimal_comma);
+  if (!(begin_s < end_s)) throw wrong;
+  entry.options.window = TimeWindow{begin_s, end_s};
+}
+
+/// The order in which cells are read: a rotation needs the radius, a relative standard error what it is of.
+int turn_of(std::string_view column) {
+  if (column == "speed_se" || column == "mass_se") return 2;
+  return column == "speed" ? 1 : 0;
+}
+
+/// Finds the columns in the header line, in the order in which their cells have to be read. `place` ("manifest.csv:1")
+/// starts each message. Errors: missing_column, duplicate_column, unknown_unit.
+ManifestColumns find_manifest_columns(const std::vector<std::string>& names, const std::string& place) {
+  ManifestColumns columns;
+  columns.count = names.size();
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const auto column = recognise(names[i], i, place);
+    if (!column) {
+      columns.ignored.push_back(printable_utf8(names[i]));
+      continue;
+    }
+    if (const ManifestColumn* const other = find_read(columns, column->field)) {
+      throw ThrownError({"duplicate_column",
+                         fmt::format("{}: the columns '{}' and '{}' state the same quantity, expected one of them",
+                                     place, other->name, column->name)});
+    }
+    columns.read.push_back(*column);
+  }
+  for (const ManifestField& field : kFields) {
+    if (field.need == Need::Nothing || find_read(columns, &field) != nullptr) continue;
+    const std::string ignored =
+        columns.ignored.empty() ? "" : fmt::format(", not understood: {}", fmt::join(columns.ignored, ", "));
+    throw ThrownError(
+        {"missing_column",
+         fmt::format("{}: there is no column '{}'{}; expected a header line such as id,file,speed_m_per_s", place,
+                     field.full_name(), ignored)});
+  }
+  std::ranges::stable_sort(columns.read, [](const ManifestColumn& a, const ManifestColumn& b) {
+    return turn_of(a.field->said.column) < turn_of(b.field->said.column);
+  });
+  return columns;
+}
+
+/// Sets what a cell says about the entry. Errors: missing_value, bad_id, bad_number, out_of_range, bad_window,
+/// unknown_unit, unknown_force_view, unknown_drift, bad_sensor_filter, conflicting_sensor, no_speed.
+void set_cell(ManifestEntry& entry, const ManifestColumn& column, const std::string& cell, bool decimal_comma) {
+  const ManifestField& field = *column.field;
+  if (cell.empty() && field.need != Need::Value) return;
+  if (cell.empty()) throw ThrownError({"missing_value", "the field is empty, expected a value"});
+  if (field.set_text != nullptr) return field.set_text(entry, cell);
+  field.set_number != nullptr ? set_number(entry, column, cell, decimal_comma)
+                              : set_window(entry, column, cell, decimal_comma);
+}
 
 bool is_comment_or_blank(std::string_view line) {
   const std::string_view text = trim(line);
@@ -319,6 +520,19 @@ char delimiter_of(std::string_view names) {
 
 }  // namespace
 
+std::vector<RecordingOption> recording_options() {
+  std::vector<RecordingOption> options;
+  for (const ManifestField& field : kFields) {
+    if (!field.said.help.empty()) options.push_back(field.said);
+  }
+  return options;
+}
+
+Error in_words_of_manifest(Error error) {
+  error.message = with_columns_for_options(std::move(error.message));
+  return error;
+}
+
 class ManifestReader::Implementation {
  public:
   Implementation(const std::filesystem::path& file, std::unique_ptr<TextSource> source)
@@ -331,7 +545,7 @@ class ManifestReader::Implementation {
                                                    "such as id,file,speed_m_per_s and a line for each recording"});
     }
     delimiter_ = delimiter_of(line);
-    columns_ = value_or_throw(find_manifest_columns(fields_of(line), place()));
+    columns_ = find_manifest_columns(fields_of(line), place());
   }
 
   std::optional<ManifestEntry> next() {
@@ -378,12 +592,12 @@ class ManifestReader::Implementation {
                                      counted(cells.size(), "field"), printable_utf8(trim(line)), columns_.count)});
     }
     for (const ManifestColumn& column : columns_.read) {
-      auto result = with_cell(std::move(entry), column, cells[column.index], delimiter_ == ';');
-      if (!result) {
-        throw ThrownError({result.error().code, fmt::format("{}: column '{}': {}", place(), column.name,
-                                                            with_columns_for_options(result.error().message))});
+      try {
+        set_cell(entry, column, cells[column.index], delimiter_ == ';');
+      } catch (const ThrownError& thrown) {
+        const Error error = in_words_of_manifest(thrown.error());
+        throw ThrownError({error.code, fmt::format("{}: column '{}': {}", place(), column.name, error.message)});
       }
-      entry = std::move(result).value();
     }
     entry.file = folder_ / entry.file;
     if (!entry.surface.empty()) entry.surface = folder_ / entry.surface;
@@ -423,254 +637,45 @@ const std::vector<std::string>& ManifestReader::ignored_columns() const {
 
 Result<std::vector<ManifestEntry>> read_manifest_group(const std::filesystem::path& file,
                                                        const std::optional<std::string>& group) {
-  const std::string name = name_of_file(file);
-  auto reader = ManifestReader::open(file);
-  if (!reader) return reader.error();
-  ManifestReader rows = std::move(reader).value();
-  std::vector<ManifestEntry> entries;
-  std::unordered_map<std::string, std::size_t> line_of_id;
-  std::set<std::string> groups;
-  for (;;) {
-    auto next = rows.next();
-    if (!next) return next.error();
-    std::optional<ManifestEntry> entry = std::move(next).value();
-    if (!entry) break;
-    if (!entry->group.empty()) groups.insert(entry->group);
-    if (group && entry->group != *group) continue;
-    const auto [first, is_new] = line_of_id.emplace(entry->id, entry->line);
-    if (!is_new) return duplicate_id(name, *entry, first->second);
-    entries.push_back(*std::move(entry));
-  }
-  if (!entries.empty()) return entries;
-  if (!group) return empty_manifest(name);
-  if (groups.empty()) {
-    return Error{"unknown_group", name + ": no recording has a group; add a column 'group', or leave out --group"};
-  }
-  return Error{"unknown_group", fmt::format("{}: no recording of group '{}', expected one of: {}", name,
-                                            printable_utf8(*group), fmt::join(groups, ", "))};
-}
-
-Error in_words_of_manifest(Error error) {
-  error.message = with_columns_for_options(std::move(error.message));
-  return error;
-}
-
-}  // namespace slipfit
-
-namespace slipfit::reading {
-
-namespace {
-
-/// "mm_per_s" is "mm/s".
-std::string spelled_out(std::string_view unit) {
-  std::string text(unit);
-  for (auto at = text.find("_per_"); at != std::string::npos; at = text.find("_per_")) text.replace(at, 5, "/");
-  return text;
-}
-
-/// The unit after the base of a column name: none, "[mm/s]", "(mm/s)" or "_mm_per_s".
-struct UnitText {
-  std::string unit;
-  bool in_brackets = false;
-};
-
-std::optional<UnitText> unit_behind(std::string_view name, std::string_view base) {
-  const auto same = [](char a, char b) { return a == std::tolower(static_cast<unsigned char>(b)); };
-  if (name.size() < base.size() || !std::equal(base.begin(), base.end(), name.begin(), same)) return std::nullopt;
-  const std::string_view rest = trim(name.substr(base.size()));
-  if (rest.empty()) return UnitText{};
-  if (rest.size() > 2 && ((rest.front() == '[' && rest.back() == ']') || (rest.front() == '(' && rest.back() == ')'))) {
-    return UnitText{std::string(trim(rest.substr(1, rest.size() - 2))), true};
-  }
-  return rest.front() == '_' ? std::optional(UnitText{spelled_out(rest.substr(1)), false}) : std::nullopt;
-}
-
-/// Nothing where the name is unknown. Error: unknown_unit, in brackets only ("speed_old" is some other column).
-Result<std::optional<ManifestColumn>> recognise(const std::string& name, std::size_t index, const std::string& place) {
-  for (const ManifestField& field : manifest_fields()) {
-    const auto text = unit_behind(name, field.said.column);
-    if (!text) continue;
-    if (text->unit.empty()) return std::optional(ManifestColumn{&field, index, printable_utf8(name), std::nullopt, {}});
-    if (!field.dimension) continue;
-    const Result<UnitScale> unit = parse_unit(text->unit, *field.dimension);
-    if (unit) {
-      const bool is_si = unit.value().scale == 1.0;
-      return std::optional(ManifestColumn{&field, index, printable_utf8(name), unit.value().scale,
-                                          is_si ? std::string() : printable_utf8(text->unit)});
+  return result_of([&] {
+    const std::string name = name_of_file(file);
+    ManifestReader rows = value_or_throw(ManifestReader::open(file));
+    std::vector<ManifestEntry> entries;
+    std::unordered_map<std::string, std::size_t> line_of_id;
+    std::set<std::string> groups;
+    while (auto entry = value_or_throw(rows.next())) {
+      if (!entry->group.empty()) groups.insert(entry->group);
+      if (group && entry->group != *group) continue;
+      const auto [first, is_new] = line_of_id.emplace(entry->id, entry->line);
+      if (!is_new) throw duplicate_id(name, *entry, first->second);
+      entries.push_back(*std::move(entry));
     }
-    if (!text->in_brackets) continue;
-    if (*field.dimension == Dimension::Speed && parse_unit(text->unit, Dimension::AngularSpeed)) {
-      return Error{
-          "unknown_unit",
-          fmt::format("{}: column '{}': '{}' is a rotation, expected the speed at the contact (rotation in rad/s "
-                      "times the radius), such as speed [mm/s]",
-                      place, printable_utf8(name), printable_utf8(text->unit))};
+    if (!entries.empty()) return entries;
+    if (!group) throw empty_manifest(name);
+    if (groups.empty()) {
+      throw ThrownError(
+          {"unknown_group", name + ": no recording has a group; add a column 'group', or leave out --group"});
     }
-    return Error{"unknown_unit",
-                 fmt::format("{}: column '{}': {}", place, printable_utf8(name), printable_utf8(unit.error().message))};
-  }
-  return std::optional<ManifestColumn>();
-}
-
-const ManifestColumn* find_read(const ManifestColumns& columns, const ManifestField* field) {
-  const auto found =
-      std::ranges::find_if(columns.read, [field](const ManifestColumn& column) { return column.field == field; });
-  return found == columns.read.end() ? nullptr : &*found;
-}
-
-/// The quantity to which a standard error belongs, which is read first, and the way it is stated; empty if the column
-/// is not a standard error.
-struct Measured {
-  double value = 0.0;  ///< 0: not stated
-  const char* absent = nullptr;
-  const char* expected = nullptr;
-};
-std::optional<Measured> measured_by(std::string_view column, const ManifestEntry& entry) {
-  if (column == "speed_se") {
-    return Measured{entry.conditions.speed_m_per_s, "no_speed",
-                    "a speed as well (--speed), of which it is a percentage"};
-  }
-  if (column == "mass_se") {
-    return Measured{entry.conditions.mass_kg.value_or(0.0), "no_mass",
-                    "a mass as well (--mass), of which it is a percentage"};
-  }
-  return std::nullopt;
-}
-
-/// A speed as it is, or a rotation times the radius, which is read before it.
-Result<double> speed_in(const std::string& text, const ManifestEntry& entry) {
-  const auto rotation = parse_quantity(text, Dimension::AngularSpeed);
-  Result<double> speed = parse_quantity(text, Dimension::Speed);
-  if (speed || !rotation) return speed;
-  if (entry.options.radius_m) return rotation.value() * *entry.options.radius_m;
-  return Error{"out_of_range",
-               fmt::format("'{}' is a rotation: add --radius, the distance of the contact from the axis", text)};
-}
-
-/// In SI: plain where the name has a unit, else a number that may bring its own.
-Result<double> number_in(const std::string& text, const ManifestEntry& entry, const ManifestColumn& column,
-                         bool decimal_comma) {
-  const ManifestField& field = *column.field;
-  if (!column.scale) {
-    const auto share = parse_quantity(text, Dimension::Dimensionless);
-    const std::optional<Measured> measured = measured_by(field.said.column, entry);
-    if (measured && text.ends_with('%') && share) {
-      if (measured->value > 0.0) return share.value() * measured->value;
-      return *refusal(measured->absent, text, measured->expected);
-    }
-    Result<double> value =
-        field.dimension == Dimension::Speed ? speed_in(text, entry) : parse_quantity(text, *field.dimension);
-    return value ? value : Result<double>(Error{value.error().code, printable_utf8(value.error().message)});
-  }
-  const Cell number = read_cell(text, decimal_comma && text.find(',') != std::string::npos);
-  if (number.kind == CellKind::Number && number.tag.empty()) return number.value * *column.scale;
-  return *refusal("bad_number", text, "a plain number in the unit of the column's name");
-}
-
-std::optional<Error> set_number(ManifestEntry& entry, const ManifestColumn& column, const std::string& cell,
-                                bool decimal_comma) {
-  const Result<double> number = number_in(cell, entry, column, decimal_comma);
-  if (!number) return number.error();
-  const ManifestField::Bound bound = column.field->bound;
-  const bool is_too_low = bound == ManifestField::Bound::AboveZero && !(number.value() > 0.0);
-  if (is_too_low || (bound == ManifestField::Bound::NotNegative && number.value() < 0.0)) {
-    return Error{"out_of_range",
-                 fmt::format("'{}' is {} zero", printable_utf8(cell), is_too_low ? "not above" : "below")};
-  }
-  if (!std::isfinite(number.value())) return refusal("bad_number", cell, "a finite number");
-  column.field->set_number(entry, number.value());
-  if (column.field->said.column == "speed") {
-    entry.conditions.speed_unit = column.scale ? column.unit : unit_in(cell);
-  }
-  return std::nullopt;
-}
-
-std::optional<Error> set_window(ManifestEntry& entry, const ManifestColumn& column, const std::string& cell,
-                                bool decimal_comma) {
-  auto wrong = refusal("bad_window", cell, "T0:T1 with T0 < T1, on the recording's own clock");
-  const std::size_t colon = cell.find(':');
-  if (colon == std::string::npos) return wrong;
-  const Result<double> begin_s = number_in(cell.substr(0, colon), entry, column, decimal_comma);
-  if (!begin_s) return begin_s.error();
-  const Result<double> end_s = number_in(cell.substr(colon + 1), entry, column, decimal_comma);
-  if (!end_s) return end_s.error();
-  if (!(begin_s.value() < end_s.value())) return wrong;
-  entry.options.window = TimeWindow{begin_s.value(), end_s.value()};
-  return std::nullopt;
-}
-
-/// The order in which cells are read: a rotation needs the radius, a relative standard error what it is of.
-int turn_of(std::string_view column) {
-  if (column == "speed_se" || column == "mass_se") return 2;
-  return column == "speed" ? 1 : 0;
-}
-
-}  // namespace
-
-Result<ManifestColumns> find_manifest_columns(const std::vector<std::string>& names, const std::string& place) {
-  ManifestColumns columns;
-  columns.count = names.size();
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    const auto column = recognise(names[i], i, place);
-    if (!column) return column.error();
-    if (!column.value()) {
-      columns.ignored.push_back(printable_utf8(names[i]));
-      continue;
-    }
-    if (const ManifestColumn* const other = find_read(columns, column.value()->field)) {
-      return Error{"duplicate_column",
-                   fmt::format("{}: the columns '{}' and '{}' state the same quantity, expected one of them", place,
-                               other->name, column.value()->name)};
-    }
-    columns.read.push_back(*column.value());
-  }
-  for (const ManifestField& field : manifest_fields()) {
-    if (field.need == ManifestField::Need::Nothing || find_read(columns, &field) != nullptr) continue;
-    const std::string ignored =
-        columns.ignored.empty() ? "" : fmt::format(", not understood: {}", fmt::join(columns.ignored, ", "));
-    return Error{"missing_column",
-                 fmt::format("{}: there is no column '{}'{}; expected a header line such as id,file,speed_m_per_s",
-                             place, field.full_name(), ignored)};
-  }
-  std::ranges::stable_sort(columns.read, [](const ManifestColumn& a, const ManifestColumn& b) {
-    return turn_of(a.field->said.column) < turn_of(b.field->said.column);
+    throw ThrownError({"unknown_group", fmt::format("{}: no recording of group '{}', expected one of: {}", name,
+                                                    printable_utf8(*group), fmt::join(groups, ", "))});
   });
-  return columns;
 }
-
-Result<ManifestEntry> with_cell(ManifestEntry entry, const ManifestColumn& column, const std::string& cell,
-                                bool decimal_comma) {
-  const ManifestField& field = *column.field;
-  if (cell.empty() && field.need != ManifestField::Need::Value) return entry;
-  const auto error = cell.empty()                  ? Error{"missing_value", "the field is empty, expected a value"}
-                     : field.set_text != nullptr   ? field.set_text(entry, cell)
-                     : field.set_number != nullptr ? set_number(entry, column, cell, decimal_comma)
-                                                   : set_window(entry, column, cell, decimal_comma);
-  if (error) return *error;
-  return entry;
-}
-
-}  // namespace slipfit::reading
-
-namespace slipfit {
-
-using namespace reading;
 
 Result<ManifestEntry> entry_from_cells(std::vector<NamedCell> cells) {
   std::ranges::stable_sort(
       cells, [](const NamedCell& a, const NamedCell& b) { return turn_of(a.column) < turn_of(b.column); });
   ManifestEntry entry;
   for (const NamedCell& cell : cells) {
-    const auto column = recognise(cell.column, 0, cell.column);
+    const auto column = result_of([&] { return recognise(cell.column, 0, cell.column); });
     if (!column || !column.value()) {
       return Error{"unknown_option", fmt::format("there is no option '{}'", printable_utf8(cell.column))};
     }
-    auto with = with_cell(std::move(entry), *column.value(), cell.text, false);
-    if (!with) {
+    try {
+      set_cell(entry, *column.value(), cell.text, false);
+    } catch (const ThrownError& thrown) {
       const std::string place = cell.place.empty() ? fmt::format("column '{}'", cell.column) : cell.place;
-      return Error{with.error().code, fmt::format("{}: {}", place, with.error().message)};
+      return Error{thrown.error().code, fmt::format("{}: {}", place, thrown.error().message)};
     }
-    entry = std::move(with).value();
   }
   return entry;
 }

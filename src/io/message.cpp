@@ -54,17 +54,14 @@ std::string counted(std::size_t count, std::string_view noun) {
   return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
 }
 
-std::optional<Error> refusal(const char* code, const std::string& cell, const char* expected) {
-  return Error{code, fmt::format("bad value '{}', expected {}", printable_utf8(cell), expected)};
+ThrownError duplicate_id(const std::string& file, const ManifestEntry& entry, std::size_t first_line) {
+  return ThrownError(
+      {"duplicate_id", fmt::format("{}:{}: column 'id': '{}' is also in line {}, expected a different id", file,
+                                   entry.line, entry.id, first_line)});
 }
 
-Error duplicate_id(const std::string& file, const ManifestEntry& entry, std::size_t first_line) {
-  return {"duplicate_id", fmt::format("{}:{}: column 'id': '{}' is also in line {}, expected a different id", file,
-                                      entry.line, entry.id, first_line)};
-}
-
-Error empty_manifest(const std::string& file) {
-  return {"empty_manifest", file + ": contains no recordings; expected a line for each"};
+ThrownError empty_manifest(const std::string& file) {
+  return ThrownError({"empty_manifest", file + ": contains no recordings; expected a line for each"});
 }
 
 }  // namespace slipfit::reading

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "slipfit/core/result.hpp"
+#include "core/thrown_error.hpp"
 #include "slipfit/io/manifest_entry.hpp"
 
 namespace slipfit::reading {
@@ -33,11 +33,8 @@ std::string name_of_file(const std::filesystem::path& file);
 /// "1 row", "12 rows".
 std::string counted(std::size_t count, std::string_view noun);
 
-/// Returns the error of a cell of a manifest: "bad value 'x', expected a number".
-std::optional<Error> refusal(const char* code, const std::string& cell, const char* expected);
-
 /// Returns an error about a manifest; messages show `file`.
-Error duplicate_id(const std::string& file, const ManifestEntry& entry, std::size_t first_line);
-Error empty_manifest(const std::string& file);
+ThrownError duplicate_id(const std::string& file, const ManifestEntry& entry, std::size_t first_line);
+ThrownError empty_manifest(const std::string& file);
 
 }  // namespace slipfit::reading

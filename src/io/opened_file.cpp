@@ -12,7 +12,6 @@
 #include "io/columns.hpp"
 #include "io/message.hpp"
 #include "io/text_lines.hpp"
-#include "slipfit/core/units.hpp"
 
 namespace slipfit::reading {
 
@@ -65,16 +64,10 @@ Layout layout_of_head(TextSource& source, const std::string& file) {
                                                  "text with a column of times and a column of forces"});
 }
 
-constexpr std::size_t kMostReserved = std::size_t{1} << 27;
-
-std::size_t expected_rows(const OpenedFile& file, const ReadOptions& options) {
-  if (options.window || options.rows || options.where) return 0;
-  return std::min(kMostReserved, static_cast<std::size_t>(1.02 * static_cast<double>(file.source->estimated_size()) /
-                                                          std::max(1.0, file.layout.mean_line_length)));
-}
-
 /// A column of friction coefficients with one of normal forces: their products are the force.
-void make_forces(Rows& rows, Choice& choice, const Layout& layout) {
+void make_forces(OpenedFile& file) {
+  Rows& rows = file.rows;
+  Choice& choice = file.choice;
   if (choice.force.quantity != ForceQuantity::FrictionCoefficient || !choice.normal_force) return;
   std::vector<std::size_t> known;
   for (std::size_t i = 0; i < rows.force.size(); ++i) {
@@ -85,41 +78,26 @@ void make_forces(Rows& rows, Choice& choice, const Layout& layout) {
   if (known.size() < rows.force.size()) rows.keep(known);
   choice.force.quantity = ForceQuantity::Force_N;
   choice.assumed.push_back(
-      fmt::format("Force is the friction coefficient times {}.", describe(layout, choice.normal_force->column)));
+      fmt::format("Force is the friction coefficient times {}.", describe(file.layout, choice.normal_force->column)));
 }
 
 }  // namespace
 
-OpenedFile open_file(const std::filesystem::path& path, const ReadOptions& options) {
-  return open_file(open_plain(path), name_of_file(path), options);
-}
-
-OpenedFile open_file(TextStream opened, const std::string& name, const ReadOptions& options) {
+OpenedFile open_file(const Container& container, const std::string& name, const ReadOptions& options) {
   OpenedFile file;
   file.name = name;
-  file.source = TextSource::over(unpacked(std::move(opened), name, {options.sheet, options.variable}), name);
+  file.options = options;
+  file.source = TextSource::over(table_in(container, name, options), name);
+  file.warnings = file.source->warnings();
   file.layout = layout_of_head(*file.source, file.name);
   return file;
 }
 
-LoadedFile load_rows(OpenedFile file, Choice choice, const ReadOptions& options) {
+void load_rows(OpenedFile& file) {
   const std::vector<std::string>& packed = file.source->assumed();
-  choice.assumed.insert(choice.assumed.begin(), packed.begin(), packed.end());
-  // The steps are counted over the whole file: with one of them the window is cut from it later.
-  const std::optional<TimeWindow> window = options.step ? std::nullopt : options.window;
-  const RowPlan plan{file.layout,  choice, options.sample_rate_Hz.value_or(1.0),
-                     options.rows, window, expected_rows(file, options)};
-  Warnings warnings = file.source->warnings();
-  Rows rows = read_rows(std::move(file.source), plan);
-  make_forces(rows, choice, file.layout);
-  return {std::move(file.name), std::move(file.layout), std::move(choice), options,
-          std::move(rows),      std::move(warnings)};
-}
-
-LoadedFile load_file(TextStream opened, const std::string& name, double speed_m_per_s, const ReadOptions& options) {
-  OpenedFile file = open_file(std::move(opened), name, options);
-  Choice choice = choose_columns(file.layout, options, speed_m_per_s, file.name);
-  return load_rows(std::move(file), std::move(choice), options);
+  file.choice.assumed.insert(file.choice.assumed.begin(), packed.begin(), packed.end());
+  file.rows = read_rows(std::move(file.source), file.layout, file.choice, file.options);
+  make_forces(file);
 }
 
 void check_options(const ReadOptions& options, const std::string& file) {
@@ -169,29 +147,6 @@ void check_samples(const Samples& samples, const ReadOptions& options) {
                                                     samples.time.size(), samples.force.size())});
 }
 
-Channel time_channel(const ReadOptions& options) {
-  Channel channel;
-  channel.scale = value_or_throw(parse_unit(options.time_unit.value_or("s"), Dimension::Time)).scale;
-  return channel;
-}
-
-Channel force_channel(const ReadOptions& options, const std::string& name) {
-  const std::string text = options.force_unit.value_or("N");
-  const auto unit = parse_unit(text, Dimension::Force);
-  const auto share = parse_unit(text, Dimension::Dimensionless);
-  const auto torque = parse_unit(text, Dimension::Torque);
-  if (!unit && !share && !torque) throw ThrownError(unit.error());
-  Channel channel;
-  channel.column = 1;
-  if (torque) {
-    channel.scale = torque.value().scale / radius_for_torque(options.radius_m, name + ": the force");
-    return channel;
-  }
-  channel.scale = unit ? unit.value().scale : share.value().scale;
-  channel.quantity = unit ? ForceQuantity::Force_N : ForceQuantity::FrictionCoefficient;
-  return channel;
-}
-
 /// The clock of samples without times.
 std::vector<double> even_clock(std::size_t count, double sample_rate_Hz) {
   std::vector<double> time_s(count);
@@ -206,22 +161,27 @@ void scale_by(std::vector<double>& values, double scale) {
 
 }  // namespace
 
-LoadedFile load_samples(Samples samples, const ReadOptions& options) {
+OpenedFile load_samples(Samples samples, const ReadOptions& options) {
   check_samples(samples, options);
-  const Channel time = time_channel(options);
-  LoadedFile file;
+  OpenedFile file;
   file.name = samples.name;
   file.options = options;
   file.layout.columns.resize(2);
-  file.layout.columns[0].name.text = "time";
-  file.layout.columns[1].name.text = "force";
-  if (!samples.time.empty()) file.choice.time = time;
-  file.choice.force = force_channel(options, samples.name);
+  file.layout.columns[0].name = {"time", "time", "s", Role::Time, 1};
+  file.layout.columns[1].name = {"force", "force", "N", Role::TangentialForce, 1};
+  for (Column& column : file.layout.columns) column.numbers = 1;
+  ReadOptions units;
+  units.time_unit = options.time_unit;
+  units.force_unit = options.force_unit;
+  units.radius_m = options.radius_m;
+  if (samples.time.empty()) units.sample_rate_Hz = options.sample_rate_Hz;
+  file.choice = choose_columns(file.layout, units, 0.0, file.name);
+  file.choice.assumed.clear();  // all of it is stated
   Rows& rows = file.rows;
   rows.force = std::move(samples.force);
   rows.count = rows.force.size();
   rows.time_s = samples.time.empty() ? even_clock(rows.count, *options.sample_rate_Hz) : std::move(samples.time);
-  if (file.choice.time) scale_by(rows.time_s, time.scale);
+  if (file.choice.time) scale_by(rows.time_s, file.choice.time->scale);
   scale_by(rows.force, file.choice.force.scale);
   rows.keep_wanted(options.rows, options.window);
   return file;

@@ -16,38 +16,28 @@
 
 namespace slipfit::reading {
 
-/// A file whose layout is known; its rows are still to be read.
+/// A file, what was asked for, and what is known of it so far.
 struct OpenedFile {
   std::string name;  ///< as messages show it
-  std::unique_ptr<TextSource> source;
-  Layout layout;
-};
-
-/// Opens a file and finds its layout. Errors: those of TextSource, no_numeric_column, line_too_long, empty_file.
-OpenedFile open_file(const std::filesystem::path& path, const ReadOptions& options);
-/// Finds the layout of a file that open_plain opened.
-OpenedFile open_file(TextStream opened, const std::string& name, const ReadOptions& options);
-
-/// A file whose rows are read, and what was asked for.
-struct LoadedFile {
-  std::string name;
+  ReadOptions options;
+  std::unique_ptr<TextSource> source;  ///< until the rows are read
+  Warnings warnings;                   ///< of what the text was packed in
   Layout layout;
   Choice choice;
-  ReadOptions options;
   Rows rows;
-  Warnings warnings;  ///< of what the text was packed in
 };
 
-/// Reads the rows. With a window of the options that comes before the steps, what lies outside is not even kept.
-LoadedFile load_rows(OpenedFile file, Choice choice, const ReadOptions& options);
+/// Unpacks the table that the options select and finds its layout; messages show `name`. Errors: those of table_in and
+/// TextSource, no_numeric_column, line_too_long, empty_file.
+OpenedFile open_file(const Container& file, const std::string& name, const ReadOptions& options);
 
-/// Does the same for the columns that options and names select, for a file that open_plain opened. Errors: those of
-/// open_file and choose_columns.
-LoadedFile load_file(TextStream opened, const std::string& name, double speed_m_per_s, const ReadOptions& options);
+/// Reads the rows of the chosen columns. With a window of the options that comes before the steps, what lies outside is
+/// not even kept.
+void load_rows(OpenedFile& file);
 
-/// The samples as a file of two columns whose rows are read. Errors: length_mismatch, unknown_unit, no_time_column,
-/// conflicting_options, those of check_options.
-LoadedFile load_samples(Samples samples, const ReadOptions& options);
+/// The samples as a file of two columns whose rows are read. Errors: length_mismatch, no_time_column, those of
+/// choose_columns and check_options.
+OpenedFile load_samples(Samples samples, const ReadOptions& options);
 
 /// The rows of --rows and --window that cannot be. Errors: bad_window, bad_rows, bad_sample_rate.
 void check_options(const ReadOptions& options, const std::string& file);

@@ -15,6 +15,11 @@
 namespace slipfit::reading {
 namespace {
 
+template <class All, class More>
+void append(All& all, const More& more) {
+  all.insert(all.end(), more.begin(), more.end());
+}
+
 std::string rows_of(const Rows& rows, const Step& step) {
   return fmt::format("rows {} to {}", rows.place_of(step.begin).row, rows.place_of(step.end - 1).row);
 }
@@ -24,27 +29,28 @@ std::string several(std::size_t steps) {
   return fmt::format("the file contains {} one after another", counted(steps, "step"));
 }
 
-Part take_step(Rows rows, const ReadOptions& options, const std::string& file) {
+Part take_step(OpenedFile& file) {
   Part part;
+  Rows& rows = part.rows;
+  rows = std::move(file.rows);
   const auto steps = find_steps(rows);
   Step taken{{0, rows.time_s.size()}};
-  if (options.step) {
-    taken = step_with_number(steps, *options.step, file);
-    part.assumed.push_back(
+  if (const auto& wanted = file.options.step) {
+    taken = step_with_number(steps, *wanted, file.name);
+    part.assume(
         fmt::format("Only step {} was read ({}; {}).", taken.number, rows_of(rows, taken), several(steps.size())));
   } else if (steps.size() > 1 && are_one_recording(rows, steps)) {
-    part.assumed.push_back(fmt::format("All {} of the file were read as one recording; --step N selects one.",
-                                       counted(steps.size(), "step")));
+    part.assume(fmt::format("All {} of the file were read as one recording; --step N selects one.",
+                            counted(steps.size(), "step")));
   } else if (steps.size() > 1) {
     taken = main_step(steps);
-    part.warnings.push_back(
+    part.provenance.warnings.push_back(
         {"several_steps",
          fmt::format("{}; only step {} was analysed ({}); --step N selects another (slipfit info lists them)",
                      several(steps.size()), taken.number, rows_of(rows, taken))});
-    part.assumed.push_back(fmt::format("Step {} is the recording ({}).", taken.number, rows_of(rows, taken)));
+    part.assume(fmt::format("Step {} is the recording ({}).", taken.number, rows_of(rows, taken)));
   }
   rows.cut(taken);
-  part.rows = std::move(rows);
   return part;
 }
 
@@ -52,17 +58,19 @@ Part take_step(Rows rows, const ReadOptions& options, const std::string& file) {
 void order_by_time(Part& part) {
   std::vector<double>& time_s = part.rows.time_s;
   part.in_window = time_s.size();
+  std::size_t& backward = part.provenance.rows_backward_in_time;
+  std::size_t& repeating = part.provenance.rows_repeating_time;
   if (const ClockOrder order = order_of(time_s); order.backward == 0) {
-    part.repeating = order.repeating;
+    repeating = order.repeating;
     return;
   }
   std::vector<std::size_t> kept{0};
   for (std::size_t i = 1; i < time_s.size(); ++i) {
     const double latest_s = time_s[kept.back()];
     const bool is_backward = time_s[i] < latest_s;
-    if (is_backward && part.backward++ == 0) part.first_backward_line = part.rows.place_of(i).line;
+    if (is_backward && backward++ == 0) part.first_backward_line = part.rows.place_of(i).line;
     if (is_backward) continue;
-    if (time_s[i] == latest_s) ++part.repeating;
+    if (time_s[i] == latest_s) ++repeating;
     kept.push_back(i);
   }
   part.rows.keep(kept);
@@ -75,7 +83,7 @@ constexpr double kTooCoarse = 10.0;  // the same, from which on slips cannot be 
 /// Rows on one time stamp, on average.
 double rows_per_stamp(const Part& part) {
   const auto rows = static_cast<double>(part.rows.time_s.size());
-  return rows / std::max(1.0, rows - static_cast<double>(part.repeating));
+  return rows / std::max(1.0, rows - static_cast<double>(part.provenance.rows_repeating_time));
 }
 
 /// "--sample-rate 5000": rows over time from the first change of the stamp to the last one.
@@ -100,25 +108,26 @@ std::string advice_on_clock(const Part& part) {
 }
 
 Warnings warn_of_rows(const Part& part) {
+  const Provenance& counts = part.provenance;
   Warnings warnings;
-  if (part.rows.without_number > 0) {
+  if (counts.rows_without_number > 0) {
     warnings.push_back(
-        {"rows_without_number", counted(part.rows.without_number, "row") + " without a number left out"});
+        {"rows_without_number", counted(counts.rows_without_number, "row") + " without a number left out"});
   }
-  if (part.backward > 0) {
+  if (counts.rows_backward_in_time > 0) {
     warnings.push_back({"time_runs_backwards",
                         fmt::format("{} with a time before that of an earlier row left out (the first is line {})",
-                                    counted(part.backward, "row"), part.first_backward_line)});
+                                    counted(counts.rows_backward_in_time, "row"), part.first_backward_line)});
   }
-  if (part.repeating > 0) {
-    warnings.push_back(
-        {"repeated_time_stamps", counted(part.repeating, "repeated time stamp") + " kept" + advice_on_clock(part)});
+  if (counts.rows_repeating_time > 0) {
+    warnings.push_back({"repeated_time_stamps",
+                        counted(counts.rows_repeating_time, "repeated time stamp") + " kept" + advice_on_clock(part)});
   }
   return warnings;
 }
 
 /// Error: unread_numbers.
-void check_unread(const Rows& rows, const LoadedFile& file) {
+void check_unread(const Rows& rows, const OpenedFile& file) {
   if (!rows.unread) return;
   const bool is_time = file.choice.time && rows.unread->column == file.choice.time->column;
   throw ThrownError(
@@ -131,7 +140,7 @@ void check_unread(const Rows& rows, const LoadedFile& file) {
 }
 
 /// Nothing, or next to nothing, in what was asked for. Errors: window_empty, part_empty.
-void check_extent(const Rows& rows, const LoadedFile& file) {
+void check_extent(const Rows& rows, const OpenedFile& file) {
   if (rows.time_s.size() >= 2) return;
   const std::string held = counted(rows.time_s.size(), "sample");
   if (file.options.window && rows.clock) {
@@ -151,7 +160,7 @@ void check_extent(const Rows& rows, const LoadedFile& file) {
 }
 
 /// Error: time_too_coarse.
-void check_stamps(const Part& part, const LoadedFile& file) {
+void check_stamps(const Part& part, const OpenedFile& file) {
   if (!file.choice.time || rows_per_stamp(part) < kTooCoarse) return;
   throw ThrownError({"time_too_coarse",
                      fmt::format("{}:{}: {} rows share each time in {} on average, so the clock is coarser than the "
@@ -160,57 +169,44 @@ void check_stamps(const Part& part, const LoadedFile& file) {
                                  describe(file.layout, file.choice.time->column), advised_rate(part.rows.time_s))});
 }
 
-/// About a part of the file, in words.
-std::vector<std::string> part_sentences(const Part& part, const LoadedFile& file) {
-  std::vector<std::string> sentences;
-  if (file.options.rows) {
-    sentences.push_back(fmt::format("Only the rows {}:{} of {} were read.", file.options.rows->first,
-                                    file.options.rows->last, part.rows.count));
+/// About the file and this part of it, in words.
+std::vector<std::string> sentences_of(const Part& part, const OpenedFile& file) {
+  const Rows& rows = part.rows;
+  const ReadOptions& options = file.options;
+  std::vector<std::string> sentences = file.choice.assumed;
+  if (rows.text_lines > 0) {
+    sentences.push_back(fmt::format("{} of text among the data {} skipped (the first is line {}).",
+                                    counted(rows.text_lines, "line"), rows.text_lines == 1 ? "was" : "were",
+                                    rows.first_text_line));
   }
-  if (file.choice.where) {
-    sentences.push_back(fmt::format("Only rows with '{1}' in {0} were read.",
-                                    describe(file.layout, file.choice.where->column),
-                                    printable_utf8(file.choice.where->text)));
+  if (options.rows) {
+    sentences.push_back(
+        fmt::format("Only the rows {}:{} of {} were read.", options.rows->first, options.rows->last, rows.count));
   }
-  sentences.insert(sentences.end(), part.assumed.begin(), part.assumed.end());
-  if (file.options.window) {
-    sentences.push_back(fmt::format("Only the window {}:{} s was read; {}.", file.options.window->begin_s,
-                                    file.options.window->end_s, clock_range(part.rows)));
+  if (const auto& where = file.choice.where) {
+    sentences.push_back(fmt::format("Only rows with '{1}' in {0} were read.", describe(file.layout, where->column),
+                                    printable_utf8(where->text)));
+  }
+  append(sentences, part.provenance.assumed);
+  if (options.window) {
+    sentences.push_back(fmt::format("Only the window {}:{} s was read; {}.", options.window->begin_s,
+                                    options.window->end_s, clock_range(rows)));
   }
   return sentences;
 }
 
-}  // namespace
-
-Part take_part(Rows rows, const ReadOptions& options, const std::string& file) {
-  Part part = take_step(std::move(rows), options, file);
-  if (options.step && options.window) part.rows.keep_wanted({}, options.window);
-  order_by_time(part);
-  return part;
-}
-
-std::vector<Part> take_segments(const Rows& rows) {
-  std::vector<Part> segments;
-  for (const Step& step : segments_of_steps(rows, find_steps(rows))) {
-    Part part;
-    part.rows = rows.part(step);
-    part.assumed.push_back(fmt::format("Segment {} was read ({}).", step.number, rows_of(rows, step)));
-    order_by_time(part);
-    segments.push_back(std::move(part));
-  }
-  return segments;
-}
-
-void check_part(const Part& part, const LoadedFile& file) {
+/// Errors: those of describe_part.
+void check_part(const Part& part, const OpenedFile& file) {
   const Rows& rows = part.rows;
   check_unread(rows, file);
   const std::string force = describe(file.layout, file.choice.force.column);
-  if (static_cast<double>(part.backward) > kMostBackward * static_cast<double>(part.in_window)) {
+  const std::size_t backward = part.provenance.rows_backward_in_time;
+  if (static_cast<double>(backward) > kMostBackward * static_cast<double>(part.in_window)) {
     throw ThrownError(
         {"time_runs_backwards",
          fmt::format("{}:{}: time runs backwards in {} of {}; is {} the time? Choose another with --time-column, or a "
                      "part with --window or --rows",
-                     file.name, part.first_backward_line, part.backward, counted(part.in_window, "row"),
+                     file.name, part.first_backward_line, backward, counted(part.in_window, "row"),
                      file.choice.time ? describe(file.layout, file.choice.time->column) : "it")});
   }
   check_extent(rows, file);
@@ -233,28 +229,43 @@ void check_part(const Part& part, const LoadedFile& file) {
   check_stamps(part, file);
 }
 
-Provenance describe_part(const Part& part, const LoadedFile& file) {
-  Provenance provenance;
+}  // namespace
+
+Part take_part(OpenedFile& file) {
+  Part part = take_step(file);
+  if (file.options.step && file.options.window) part.rows.keep_wanted({}, file.options.window);
+  order_by_time(part);
+  return part;
+}
+
+std::vector<Part> take_segments(const Rows& rows) {
+  std::vector<Part> segments;
+  for (const Step& step : segments_of_steps(rows, find_steps(rows))) {
+    Part part;
+    part.rows = rows;
+    part.rows.cut(step);
+    part.assume(fmt::format("Segment {} was read ({}).", step.number, rows_of(rows, step)));
+    order_by_time(part);
+    segments.push_back(std::move(part));
+  }
+  return segments;
+}
+
+void describe_part(Part& part, const OpenedFile& file) {
+  Provenance& provenance = part.provenance;
+  provenance.rows_without_number = part.rows.without_number;
+  check_part(part, file);
   provenance.file = file.name;
   provenance.input_digest = part.rows.digest;
   provenance.input_bytes = part.rows.bytes;
-  provenance.assumed = file.choice.assumed;
-  provenance.rows_without_number = part.rows.without_number;
-  provenance.rows_backward_in_time = part.backward;
-  provenance.rows_repeating_time = part.repeating;
-  provenance.warnings = file.warnings;
-  for (Warning& warning : warn_of_rows(part)) provenance.warnings.push_back(std::move(warning));
-  provenance.warnings.insert(provenance.warnings.end(), part.warnings.begin(), part.warnings.end());
-  if (part.rows.text_lines > 0) {
-    provenance.assumed.push_back(fmt::format("{} of text among the data {} skipped (the first is line {}).",
-                                             counted(part.rows.text_lines, "line"),
-                                             part.rows.text_lines == 1 ? "was" : "were", part.rows.first_text_line));
-  }
+  provenance.assumed = sentences_of(part, file);
+  Warnings warnings = file.warnings;
+  append(warnings, warn_of_rows(part));
+  append(warnings, provenance.warnings);
+  provenance.warnings = std::move(warnings);
   provenance.is_time_unit_assumed = file.choice.time && file.choice.time->is_unit_assumed;
   provenance.window_given = file.options.window.has_value() || file.options.rows.has_value();
   provenance.options = stated_cells(file.options);
-  for (std::string& sentence : part_sentences(part, file)) provenance.assumed.push_back(std::move(sentence));
-  return provenance;
 }
 
 }  // namespace slipfit::reading

@@ -1,38 +1,35 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "io/opened_file.hpp"
-#include "slipfit/core/estimate.hpp"
 #include "slipfit/core/recording.hpp"
 #include "slipfit/io/read_options.hpp"
 
 namespace slipfit::reading {
 
-/// The rows of one recording in the order of time, which never decreases; and what was left out to get there.
+/// The rows of one recording in the order of time, which never decreases; and what is known and assumed about them.
 struct Part {
   Rows rows;
+  Conditions conditions;
+  Provenance provenance;
   std::size_t in_window = 0;  ///< samples before those out of order were left out
-  std::size_t backward = 0;
-  std::size_t repeating = 0;
   unsigned first_backward_line = 0;
-  std::vector<std::string> assumed;
-  Warnings warnings;
+
+  void assume(std::string sentence) { provenance.assumed.push_back(std::move(sentence)); }
 };
 
 /// The step that was asked for, or the main one of several that are no one recording; of that the window; of that the
-/// samples whose time does not run backwards. Error: unknown_step.
-Part take_part(Rows rows, const ReadOptions& options, const std::string& file);
+/// samples whose time does not run backwards. The rows are no longer in the file. Error: unknown_step.
+Part take_part(OpenedFile& file);
 
 /// The stretches of one speed each, in every step of the file.
 std::vector<Part> take_segments(const Rows& rows);
 
-/// Checks the part. Errors: unread_numbers, time_runs_backwards, window_empty, part_empty, no_number_in_column,
-/// too_few_samples, time_constant.
-void check_part(const Part& part, const LoadedFile& file);
-
-/// Counts, assumptions and warnings.
-Provenance describe_part(const Part& part, const LoadedFile& file);
+/// Adds the counts, assumptions and warnings of the file to those of the part. Errors: unread_numbers,
+/// time_runs_backwards, window_empty, part_empty, no_number_in_column, too_few_samples, time_constant, time_too_coarse.
+void describe_part(Part& part, const OpenedFile& file);
 
 }  // namespace slipfit::reading

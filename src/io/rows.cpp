@@ -47,16 +47,27 @@ std::vector<WantedColumn> wanted_columns(const Choice& choice) {
   return wanted;
 }
 
+std::size_t expected_rows(const TextSource& source, const Layout& layout, const ReadOptions& options) {
+  constexpr std::size_t kMost = std::size_t{1} << 27U;
+  if (options.window || options.rows || options.where) return 0;
+  return std::min(kMost, static_cast<std::size_t>(1.02 * static_cast<double>(source.estimated_size()) /
+                                                  std::max(1.0, layout.mean_line_length)));
+}
+
 class RowReader {
  public:
-  explicit RowReader(const RowPlan& plan)
-      : plan_(plan),
-        dialect_(plan.layout.dialect),
-        wanted_(wanted_columns(plan.choice)),
-        is_clock_(plan.choice.time && plan.choice.time->is_clock) {
+  RowReader(const Layout& layout, const Choice& choice, const ReadOptions& options, std::size_t expected_rows)
+      : layout_(layout),
+        choice_(choice),
+        wanted_rows_(options.rows),
+        window_(options.step ? std::nullopt : options.window),
+        sample_rate_Hz_(options.sample_rate_Hz.value_or(1.0)),
+        dialect_(layout.dialect),
+        wanted_(wanted_columns(choice)),
+        is_clock_(choice.time && choice.time->is_clock) {
     reading_.values.fill(kNoValue);
-    rows_.time_s.reserve(plan.expected_rows);
-    rows_.force.reserve(plan.expected_rows);
+    rows_.time_s.reserve(expected_rows);
+    rows_.force.reserve(expected_rows);
   }
 
   void add(const char* line, unsigned number) {
@@ -68,7 +79,7 @@ class RowReader {
       if (!is_complete() && !is_row()) return count_text_line(line, number);
     }
     ++rows_.count;
-    if (plan_.rows && (rows_.count < plan_.rows->first || rows_.count > plan_.rows->last)) return;
+    if (wanted_rows_ && (rows_.count < wanted_rows_->first || rows_.count > wanted_rows_->last)) return;
     if (!reading_.is_wanted) return;
     turn_into_SI();
     keep(number);
@@ -82,7 +93,7 @@ class RowReader {
   }
 
  private:
-  [[nodiscard]] bool has_clock() const { return plan_.choice.time.has_value(); }
+  [[nodiscard]] bool has_clock() const { return choice_.time.has_value(); }
   [[nodiscard]] bool is_complete() const {
     return (std::isfinite(reading_.values[kTime]) || !has_clock()) && std::isfinite(reading_.values[kForce]);
   }
@@ -96,7 +107,11 @@ class RowReader {
   void keep(unsigned number);
   void note_place(unsigned line);
 
-  const RowPlan& plan_;
+  const Layout& layout_;
+  const Choice& choice_;
+  std::optional<RowRange> wanted_rows_;
+  std::optional<TimeWindow> window_;  ///< the steps are counted over the whole file: of one the window is cut later
+  double sample_rate_Hz_;             ///< the clock where no time column is chosen
   Dialect dialect_;
   std::vector<WantedColumn> wanted_;
   bool is_clock_;  ///< h:min:s, which begins again at midnight
@@ -140,18 +155,18 @@ void RowReader::read_plain(const char* cell) {
     if (wanted == last) return;
     if (*cell++ == '\0') break;
   }
-  reading_.is_wanted = reading_.is_wanted && !plan_.choice.where;  // its cell was not reached
+  reading_.is_wanted = reading_.is_wanted && !choice_.where;  // its cell was not reached
 }
 
 bool RowReader::is_where(std::string_view cell, double number) const {
-  const WhereFilter& where = *plan_.choice.where;
+  const WhereFilter& where = *choice_.where;
   return (where.number && number == *where.number) || unquote(cell) == std::string_view(where.text);
 }
 
 /// NaN where the cell holds no number, or one with another tag than this column's ("3 cells ready" among "1.79 N1").
 double RowReader::number_at(std::size_t column) const {
   if (column >= cells_.size()) return kNoValue;
-  const Column& described = plan_.layout.columns[column];
+  const Column& described = layout_.columns[column];
   const Cell cell = read_cell(cells_[column], dialect_.decimal_comma);
   const bool is_number = cell.kind == CellKind::Number && (cell.tag.empty() || cell.tag == described.tag);
   const bool is_clock = cell.kind == CellKind::Clock && described.clocks > described.numbers;
@@ -160,8 +175,8 @@ double RowReader::number_at(std::size_t column) const {
 
 /// An incomplete line is a row when something in it is a number or says that a reading is missing.
 bool RowReader::is_row() const {
-  for (std::size_t c = 0; c < std::min(cells_.size(), plan_.layout.columns.size()); ++c) {
-    const bool is_wanted = c == plan_.choice.force.column || (has_clock() && c == plan_.choice.time->column);
+  for (std::size_t c = 0; c < std::min(cells_.size(), layout_.columns.size()); ++c) {
+    const bool is_wanted = c == choice_.force.column || (has_clock() && c == choice_.time->column);
     if (is_wanted && read_cell(cells_[c], dialect_.decimal_comma).kind == CellKind::Missing) return true;
     if (std::isfinite(number_at(c))) return true;
   }
@@ -173,9 +188,9 @@ void RowReader::count_text_line(std::string_view line, unsigned number) {
   const char delimiter = dialect_.delimiter == '\0' ? ' ' : dialect_.delimiter;
   if (std::ranges::all_of(line, [&](char c) { return c == delimiter || trim({&c, 1}).empty(); })) return;
   if (rows_.text_lines++ == 0) rows_.first_text_line = number;
-  const bool is_in_rows = !plan_.rows || (rows_.count + 1 >= plan_.rows->first && rows_.count < plan_.rows->last);
+  const bool is_in_rows = !wanted_rows_ || (rows_.count + 1 >= wanted_rows_->first && rows_.count < wanted_rows_->last);
   if (is_in_rows && reading_.is_wanted) count_unread(number);
-  const bool is_names = !plan_.layout.names_line.empty() && trim(line) == plan_.layout.names_line;
+  const bool is_names = !layout_.names_line.empty() && trim(line) == layout_.names_line;
   if (is_names && !rows_.time_s.empty()) rows_.blocks.push_back(rows_.time_s.size());
 }
 
@@ -192,7 +207,7 @@ void RowReader::turn_into_SI() {
   for (const WantedColumn& wanted : wanted_) reading_.values[wanted.slot] *= wanted.scale;
   double& time_s = reading_.values[kTime];
   if (!has_clock()) {
-    time_s = static_cast<double>(counted_++) / *plan_.sample_rate_Hz;
+    time_s = static_cast<double>(counted_++) / sample_rate_Hz_;
   } else if (is_clock_ && std::isfinite(time_s)) {
     const bool is_date = time_s > 1000.0 * kDay_s;
     if (is_date && !std::isfinite(last_clock_s_)) midnights_s_ = -kDay_s * std::floor(time_s / kDay_s);
@@ -205,10 +220,10 @@ void RowReader::turn_into_SI() {
 void RowReader::keep(unsigned number) {
   const std::array<double, kSlots>& values = reading_.values;
   const double time_s = values[kTime];
-  if (plan_.window && std::isfinite(time_s)) {
+  if (window_ && std::isfinite(time_s)) {
     low_s_ = std::min(low_s_, time_s);
     high_s_ = std::max(high_s_, time_s);
-    if (time_s < plan_.window->begin_s || time_s > plan_.window->end_s) return;
+    if (time_s < window_->begin_s || time_s > window_->end_s) return;
   }
   if (!std::isfinite(time_s) || !std::isfinite(values[kForce])) {
     ++rows_.without_number;
@@ -220,7 +235,7 @@ void RowReader::keep(unsigned number) {
   rows_.force.push_back(values[kForce]);
   for (std::size_t i = 0; i < kSideColumns.size(); ++i) {
     const SideColumn& side = kSideColumns[i];
-    if (!(plan_.choice.*side.channel)) continue;
+    if (!(choice_.*side.channel)) continue;
     const double value = values[kSide + i];
     (rows_.*side.values).push_back(side.is_magnitude ? std::abs(value) : value);
   }
@@ -296,12 +311,13 @@ void Rows::keep_wanted(const std::optional<RowRange>& wanted_rows, const std::op
   if (kept.size() < time_s.size()) keep(kept);
 }
 
-Rows read_rows(std::unique_ptr<TextSource> source, const RowPlan& plan) {
-  RowReader reader(plan);
+Rows read_rows(std::unique_ptr<TextSource> source, const Layout& layout, const Choice& choice,
+               const ReadOptions& options) {
+  RowReader reader(layout, choice, options, expected_rows(*source, layout, options));
   const std::shared_ptr<const Digester> digester = source->digester();
   TextLines lines(std::move(source));
   while (const char* line = lines.next()) {
-    if (lines.number() >= plan.layout.first_data_line) reader.add(line, lines.number());
+    if (lines.number() >= layout.first_data_line) reader.add(line, lines.number());
   }
   Rows rows = reader.finish();
   rows.digest = digester->digest();

@@ -12,19 +12,10 @@
 #include "io/columns.hpp"
 #include "io/layout.hpp"
 #include "io/text_source.hpp"
+#include "slipfit/core/digest.hpp"
 #include "slipfit/io/read_options.hpp"
 
 namespace slipfit::reading {
-
-/// The values to read from each line.
-struct RowPlan {
-  const Layout& layout;
-  const Choice& choice;
-  std::optional<double> sample_rate_Hz;  ///< the clock where no time column is chosen
-  std::optional<RowRange> rows;
-  std::optional<TimeWindow> window;  ///< what lies outside is not even kept
-  std::size_t expected_rows = 0;
-};
 
 /// The position of a sample in the file; it is valid for later samples up to the next position.
 struct RowPlace {
@@ -56,11 +47,6 @@ struct Rows {
   /// Row number and line of a sample.
   [[nodiscard]] RowPlace place_of(std::size_t sample) const;
   void cut(const SampleRange& kept);
-  [[nodiscard]] Rows part(const SampleRange& range) const {
-    Rows own = *this;
-    own.cut(range);
-    return own;
-  }
   /// Keeps the samples in the rows and in the window that have a time and a force; counts those without.
   void keep_wanted(const std::optional<RowRange>& wanted_rows, const std::optional<TimeWindow>& window);
   /// Keeps the samples of these indices, ascending.
@@ -78,7 +64,8 @@ inline constexpr std::array<SideColumn, 4> kSideColumns{{{&Choice::displacement,
                                                          {&Choice::speed, &Rows::speed_m_per_s, true},
                                                          {&Choice::step, &Rows::step, false}}};
 
-/// One pass, 16 bytes a sample, 8 for each further column. Throws what TextLines throws.
-Rows read_rows(std::unique_ptr<TextSource> source, const RowPlan& plan);
+/// Reads the chosen columns in one pass: 16 bytes a sample, 8 for each further column. Throws what TextLines throws.
+Rows read_rows(std::unique_ptr<TextSource> source, const Layout& layout, const Choice& choice,
+               const ReadOptions& options);
 
 }  // namespace slipfit::reading

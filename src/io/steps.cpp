@@ -79,6 +79,10 @@ std::vector<double> block_speeds_m_per_s(std::span<const double> time_s, std::sp
   return speeds;
 }
 
+namespace {
+
+/// The stretches in which the column holds one level each, to the given relative tolerance, where there are several
+/// levels; a stretch of less than a twentieth of the samples is none. Empty where the column drifts.
 std::vector<SampleRange> stretches_of_levels(std::span<const double> values, double tolerance) {
   const auto blocks = block_medians(values);
   const std::size_t size = block_size(values.size());
@@ -104,8 +108,6 @@ std::vector<SampleRange> stretches_of_levels(std::span<const double> values, dou
   const bool are_levels = stretches.size() > 1 && highest > (1.0 + 2.0 * tolerance) * lowest;
   return are_levels ? stretches : std::vector<SampleRange>{};
 }
-
-namespace {
 
 constexpr std::size_t kFewestRows = 8;  // of a step: what is shorter is a slip of the clock or of the exporter
 constexpr double kSpeedStep = 0.1;

@@ -26,10 +26,6 @@ std::optional<Level> level_of(std::span<const double> values);
 std::vector<double> block_speeds_m_per_s(std::span<const double> time_s, std::span<const double> displacement_m,
                                          std::size_t blocks);
 
-/// The stretches in which the column holds one level each, to the given relative tolerance, where there are several
-/// levels; a stretch of less than a twentieth of the samples is none. Empty where the column drifts.
-std::vector<SampleRange> stretches_of_levels(std::span<const double> values, double tolerance);
-
 /// A part of a file that was recorded in one go.
 struct Step : SampleRange {
   std::size_t number = 1;  ///< the file's own where each has another, else counted from 1

@@ -31,9 +31,6 @@ class TextSource {
   [[nodiscard]] std::size_t estimated_size() const { return estimated_size_; }
   /// Sentences about what the text was packed in, and its encoding.
   [[nodiscard]] const std::vector<std::string>& assumed() const { return stream_.assumed; }
-  /// Returns the tables in the file that an option can select.
-  [[nodiscard]] const std::vector<std::string>& tables() const { return stream_.tables; }
-  [[nodiscard]] TableKind table_kind() const { return stream_.table_kind; }
   [[nodiscard]] const Warnings& warnings() const { return stream_.warnings; }
   /// Returns the digest of the bytes of the file as they are read; it outlives the source, which a reader of lines
   /// takes.

@@ -94,8 +94,9 @@ HeightMap read_image(const SurfaceFile& file, const ProfileOptions& options) {
     throw ThrownError(
         {"no_pixel", file.name + ": an image; state the size of its pixels on the surface: --pixel 2.1um"});
   }
-  const reading::HelperOutput output = reading::run_helper(
-      {"slipfit-image", {reading::kFileOfHelper}, "an image", "libleptonica-dev"}, std::move(*file.stream), file.name);
+  const reading::HelperOutput output =
+      reading::run_helper({"slipfit-image", {reading::kFileOfHelper}, "an image", "libleptonica-dev"},
+                          reading::file_in_memory(*file.stream->bytes, file.name), file.name);
   HeightMap map{0, 0, *options.pixel_m, *options.pixel_m, {}, false};
   if (std::sscanf(output.first.c_str(), "%zux%zu", &map.columns, &map.rows) != 2 || map.columns == 0 || map.rows == 0) {
     throw damaged_surface(file, "the image is damaged");
@@ -224,7 +225,8 @@ Profile made(Columns columns, const Choice& choice, const Layout& layout, const 
 }  // namespace
 
 Profile read_text_profile(const SurfaceFile& file, const ProfileOptions& options) {
-  reading::OpenedFile opened = reading::open_file(std::move(*file.stream), file.name, {});
+  reading::OpenedFile opened =
+      reading::open_file(reading::open_container(std::move(*file.stream), file.name), file.name, {});
   const Layout layout = opened.layout;
   const Choice choice = choose(layout, options, file.name);
   if (!choice.x && !options.pitch_m) {

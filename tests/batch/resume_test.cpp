@@ -54,12 +54,12 @@ class Interrupted {
     (void)scene_.file("out/results.jsonl", "of an earlier time");
     (void)scene_.file("out/failures.csv", "id,co");
     (void)scene_.file("out/lock", "slipfit batch, process 1 on nowhere");
-    (void)scene_.file("out/.results.jsonl.a1B2c3.new", "left over");
+    (void)scene_.file("out/.results.jsonl.new", "left over");
     const auto run = batch(scene_.manifest(), scene_.path("out"), {"--resume", "--jobs", "2"});
     CAPTURE(run.err, journal.size());
     CHECK(run.exit_code == 0);
     CHECK(files_in(scene_.path("out")) == whole_);
-    CHECK_FALSE(std::filesystem::exists(scene_.path("out/.results.jsonl.a1B2c3.new")));
+    CHECK_FALSE(std::filesystem::exists(scene_.path("out/.results.jsonl.new")));
     CHECK_FALSE(std::filesystem::exists(scene_.path("out/journal")));
     CHECK_FALSE(std::filesystem::exists(scene_.path("out/lock")));
   }

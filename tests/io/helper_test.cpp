@@ -14,6 +14,10 @@ using slipfit::reading::Helper;
 
 namespace {
 
+slipfit::FileHandle in_memory(const TempFile& file) {
+  return slipfit::reading::file_in_memory(*slipfit::reading::open_plain(file.path()).bytes, "file");
+}
+
 /// A shell script as the program that reads a file for slipfit; its input is the text "input".
 class ScriptAsHelper {
  public:
@@ -31,7 +35,7 @@ class ScriptAsHelper {
     const TempFile input("input");
     const std::string program = fs::path(script_.path()).filename().string();
     const Helper helper{program, {slipfit::reading::kFileOfHelper}, "a test", "dash", longest_wait};
-    const auto read = slipfit::reading::run_helper(helper, slipfit::reading::open_plain(input.path()), "file");
+    const auto read = slipfit::reading::run_helper(helper, in_memory(input), "file");
     return read.first + "|" + slipfit::reading::read_all(*read.bytes, 1 << 20).value();
   }
 
@@ -58,7 +62,7 @@ TEST_CASE("a helper is found in the folders of SLIPFIT_HELPERS and reads the inp
 TEST_CASE("a helper that is not found is named, with the variable for its folder") {
   const TempFile input("input");
   const Helper helper{"slipfit-none", {}, "a test", "none-dev"};
-  CHECK_THROWS_WITH(slipfit::reading::run_helper(helper, slipfit::reading::open_plain(input.path()), "file"),
+  CHECK_THROWS_WITH(slipfit::reading::run_helper(helper, in_memory(input), "file"),
                     Contains("slipfit-none") && Contains("SLIPFIT_HELPERS") && Contains("none-dev"));
 }
 

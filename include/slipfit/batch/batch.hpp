@@ -12,7 +12,7 @@ namespace slipfit {
 /// Fits every recording of a manifest on its own (and every group together) and writes results.jsonl, summary.csv,
 /// failures.csv and run.json as docs/formats.md says. A recording that fails is a row of failures.csv and no error.
 /// Fits run in child processes (fork): the calling process should have no other threads at work. Where one crashes,
-/// hangs or takes too much memory, its recording alone fails. Memory: the recordings being fitted and at most 80 bytes
+/// hangs or takes too much memory, its recording alone fails. Memory: the recordings being fitted and some 80 bytes
 /// a row, with a report 1.5 kB. After a stop, an error or a kill at any moment, `resume` continues; a recording whose
 /// file has changed since its fit is fitted again. Errors: those of ManifestReader, duplicate_id, empty_manifest,
 /// folder_in_use, folder_of_another_batch, results_present, manifest_changed, not_a_page, cannot_write.

@@ -165,6 +165,7 @@ void add_array(hid_t file, const ArrayShape& shape, NumberTable& table) {
 /// The library resolves links in the path of a file that it opens itself; slipfit's has no path. The bytes are not
 /// copied, which the library would do twice: they have to outlive the file, which is never written to.
 hid_t open_in_memory(std::string_view file) {
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   constexpr std::size_t kIncrement = std::size_t{1} << 20U;
   // NOLINTNEXTLINE(cppcoreguidelines-pro-type-const-cast): the interface of HDF5
   auto* const bytes = const_cast<char*>(file.data());
@@ -183,12 +184,20 @@ hid_t open_in_memory(std::string_view file) {
   return H5Fopen("recording", H5F_ACC_RDONLY, access);
 }
 
-Contents contents_of(hid_t file) {
+/// Returns true if `variable` names the dataset or its group.
+bool is_wanted(const std::string& path, const std::string& variable) {
+  return is_called(path, variable) || is_called(path.substr(0, path.rfind('/')), variable);
+}
+
+/// With a variable, only what it names is opened: a file may hold hundreds of groups.
+Contents contents_of(hid_t file, const std::optional<std::string>& variable) {
   Contents contents;
   Paths datasets;
   visit_objects(file, note_dataset, &datasets);
   H5Lvisit(file, H5_INDEX_NAME, H5_ITER_NATIVE, note_outer_link, &contents.in_other_files);
-  for (const std::string& path : datasets) add_dataset(file, path, contents);
+  for (const std::string& path : datasets) {
+    if (!variable || is_wanted(path, *variable)) add_dataset(file, path, contents);
+  }
   return contents;
 }
 
@@ -196,8 +205,7 @@ Contents contents_of(hid_t file) {
 /// know of them. Without --variable nobody knows whether the table needs them.
 void refuse_other_files(const Contents& contents, const std::optional<std::string>& variable) {
   for (const std::string& path : contents.in_other_files) {
-    const std::string group = path.substr(0, path.rfind('/'));
-    if (variable && !is_called(path, *variable) && !is_called(group, *variable)) continue;
+    if (variable && !is_wanted(path, *variable)) continue;
     throw Refusal({"data_in_other_file", "the numbers of '" + path +
                                              "' are in another file (virtual, external or linked), which is not " +
                                              "opened; save all numbers in one file" +
@@ -211,27 +219,23 @@ NumberTable table_of(hid_t file, const TableShape& shape) {
   return table;
 }
 
+ReadTable read_hdf5(std::string_view file, const std::optional<std::string>& variable) {
+  const Handle opened(open_in_memory(file), H5Fclose);
+  const Contents contents = contents_of(opened, variable);
+  refuse_other_files(contents, variable);
+  const bool is_found = !variable || !contents.arrays.empty();
+  const std::vector<ArrayShape> arrays = is_found ? contents.arrays : contents_of(opened, std::nullopt).arrays;
+  const TableShape shape = choose_table(arrays, variable, file.size());
+  return {table_of(opened, shape), shape.name};
+}
+
+std::vector<std::string> tables_in_hdf5(std::string_view file) {
+  const Handle opened(open_in_memory(file), H5Fclose);
+  return recordable_tables(contents_of(opened, std::nullopt).arrays, file.size());
+}
+
 }  // namespace
 
-ReadTable read_hdf5(std::string_view file, const std::optional<std::string>& variable) {
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-  const std::uint64_t size = file.size();
-  const Handle opened(open_in_memory(file), H5Fclose);
-  const Contents contents = contents_of(opened);
-  refuse_other_files(contents, variable);
-  const TableShape shape = choose_table(contents.arrays, variable, size);
-  return {table_of(opened, shape), shape.name, names_of(recordable_tables(contents.arrays, size))};
-}
-
-void take_all_of_hdf5(std::string_view file, const TakeTable& take) {
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-  const std::uint64_t size = file.size();
-  const Handle opened(open_in_memory(file), H5Fclose);
-  const Contents contents = contents_of(opened);
-  refuse_other_files(contents, std::nullopt);
-  for (const TableShape& shape : recordable_tables(contents.arrays, size)) {
-    take(shape.name, [&] { return table_of(opened, shape); });
-  }
-}
+const ArrayFormat kHdf5{read_hdf5, tables_in_hdf5};
 
 }  // namespace slipfit::reading

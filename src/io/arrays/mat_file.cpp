@@ -4,7 +4,6 @@
 #include <array>
 #include <bit>
 #include <cstdint>
-#include <cstring>
 #include <functional>
 #include <memory>
 #include <new>
@@ -13,6 +12,7 @@
 #include <utility>
 
 #include "io/arrays/tables.hpp"
+#include "io/container/cursor.hpp"
 #include "io/container/formats.hpp"
 
 // Files of MATLAB 5 to 7 are elements one after another, each a type, a number of bytes and these bytes. Source:
@@ -37,83 +37,52 @@ enum class MatType : std::uint32_t {
   Compressed = 15,
 };
 
-enum class MatOrder { AsHere, Swapped };  ///< of the bytes of a number
-
 struct MatElement {
   MatType type{};
   std::string_view data;
-  MatOrder order = MatOrder::AsHere;
+  std::endian order = std::endian::native;
 };
-
-[[noreturn]] void refuse_damaged_mat() {
-  throw Refusal({"damaged_container", "the .mat file is damaged or cut off; save it again"});
-}
-
-template <class Number>
-Number number_at(const char* place, MatOrder order) {
-  std::array<char, sizeof(Number)> bytes{};
-  std::memcpy(bytes.data(), place, bytes.size());
-  if (order == MatOrder::Swapped) std::ranges::reverse(bytes);
-  Number number{};
-  std::memcpy(&number, bytes.data(), bytes.size());
-  return number;
-}
-
-template <class Number>
-std::vector<double> converted(const MatElement& element) {
-  if (element.data.size() % sizeof(Number) != 0) refuse_damaged_mat();
-  std::vector<double> values(element.data.size() / sizeof(Number));
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    values[i] = static_cast<double>(number_at<Number>(element.data.data() + i * sizeof(Number), element.order));
-  }
-  return values;
-}
 
 struct EndInflate {
   void operator()(z_stream* state) const { inflateEnd(state); }
 };
 
-/// The elements in `bytes`, which end with the last one. Throws Refusal where they do not.
-std::vector<MatElement> mat_elements(std::string_view bytes, MatOrder order) {
-  constexpr std::size_t kTag = 8;
+/// The elements in `bytes`, which end with the last one. Throws Damaged where they do not.
+std::vector<MatElement> mat_elements(std::string_view bytes, std::endian order) {
   constexpr std::size_t kHalf = 4;
   std::vector<MatElement> elements;
-  while (!bytes.empty()) {
-    if (bytes.size() < kTag) refuse_damaged_mat();
-    const auto first = number_at<std::uint32_t>(bytes.data(), order);
+  for (Cursor cursor(bytes, order); !cursor.rest().empty();) {
+    const auto first = cursor.number<std::uint32_t>();
     const bool is_small = first >> 16U != 0;  // up to four bytes, which are in the tag itself
-    const std::size_t size = is_small ? first >> 16U : number_at<std::uint32_t>(bytes.data() + kHalf, order);
+    const std::size_t size = is_small ? first >> 16U : cursor.number<std::uint32_t>();
     const auto type = static_cast<MatType>(is_small ? first & 0xFFFFU : first);
-    const std::size_t begin = is_small ? kHalf : kTag;
-    if (size > (is_small ? kHalf : bytes.size() - kTag)) refuse_damaged_mat();
-    elements.push_back({type, bytes.substr(begin, size), order});
-    const std::size_t padding = type == MatType::Compressed ? 0 : (kTag - size % kTag) % kTag;
-    bytes.remove_prefix(is_small ? kTag : std::min(begin + size + padding, bytes.size()));
+    if (is_small && size > kHalf) throw Damaged{};
+    elements.push_back({type, cursor.bytes(size), order});
+    const std::size_t padding = (2 * kHalf - size % (2 * kHalf)) % (2 * kHalf);
+    if (is_small) cursor.bytes(kHalf - size);
+    if (!is_small && type != MatType::Compressed) cursor.bytes(std::min(padding, cursor.rest().size()));
   }
   return elements;
 }
 
-/// The numbers of an element, whatever their kind. Throws Refusal where it holds none, or half a number.
+/// The numbers of an element, whatever their kind. Throws Damaged where it holds none, or half a number.
 std::vector<double> mat_numbers(const MatElement& element) {
-  using Convert = std::vector<double>(const MatElement&);
-  constexpr std::array kConversions =
-      std::to_array<std::pair<MatType, Convert*>>({{MatType::Int8, converted<std::int8_t>},
-                                                   {MatType::UInt8, converted<std::uint8_t>},
-                                                   {MatType::Int16, converted<std::int16_t>},
-                                                   {MatType::UInt16, converted<std::uint16_t>},
-                                                   {MatType::Int32, converted<std::int32_t>},
-                                                   {MatType::UInt32, converted<std::uint32_t>},
-                                                   {MatType::Single, converted<float>},
-                                                   {MatType::Double, converted<double>},
-                                                   {MatType::Int64, converted<std::int64_t>},
-                                                   {MatType::UInt64, converted<std::uint64_t>}});
-  const auto* const found =
-      std::ranges::find_if(kConversions, [&](const auto& conversion) { return conversion.first == element.type; });
-  if (found == kConversions.end()) refuse_damaged_mat();
-  return found->second(element);
+  static constexpr std::array kTypes{
+      number_type<std::int8_t>(MatType::Int8),   number_type<std::uint8_t>(MatType::UInt8),
+      number_type<std::int16_t>(MatType::Int16), number_type<std::uint16_t>(MatType::UInt16),
+      number_type<std::int32_t>(MatType::Int32), number_type<std::uint32_t>(MatType::UInt32),
+      number_type<float>(MatType::Single),       number_type<double>(MatType::Double),
+      number_type<std::int64_t>(MatType::Int64), number_type<std::uint64_t>(MatType::UInt64)};
+  const auto* const type = find_type(kTypes, element.type);
+  if (type == nullptr || element.data.size() % type->bytes != 0) throw Damaged{};
+  std::vector<double> values(element.data.size() / type->bytes);
+  Cursor cursor(element.data, element.order);
+  for (double& value : values) value = type->read(cursor);
+  return values;
 }
 
-/// The bytes of a compressed element. Throws Refusal where their checksum is wrong, or they are out of all proportion.
+/// The bytes of a compressed element. Throws Damaged where their checksum is wrong,
+/// Refusal where they are out of all proportion.
 std::string inflated(std::string_view packed) {
   constexpr std::size_t kPiece = std::size_t{256} * 1024;
   z_stream stream{};
@@ -133,7 +102,7 @@ std::string inflated(std::string_view packed) {
     stream.avail_out = static_cast<uInt>(kPiece);
     status = inflate(&stream, Z_NO_FLUSH);
     bytes.resize(before + kPiece - stream.avail_out);
-    if (status != Z_OK && status != Z_STREAM_END) refuse_damaged_mat();
+    if (status != Z_OK && status != Z_STREAM_END) throw Damaged{};
     if (is_bomb(bytes.size(), packed.size())) {
       throw Refusal(
           {"container_too_large", "the .mat file decompresses to far more than a recording; save a part of it"});
@@ -161,7 +130,7 @@ struct MatArray {
 
 /// Numbers that describe an array; the format demands integers of 32 bits.
 std::vector<double> integers_of(const MatElement& element) {
-  if (element.type != MatType::Int32 && element.type != MatType::UInt32) refuse_damaged_mat();
+  if (element.type != MatType::Int32 && element.type != MatType::UInt32) throw Damaged{};
   return mat_numbers(element);
 }
 
@@ -178,11 +147,11 @@ std::optional<MatArray> read_array(const MatElement& matrix) {
   const auto parts = mat_elements(matrix.data, matrix.order);
   if (parts.empty()) return std::nullopt;  // what an empty field of a structure is
   const auto flags = integers_of(parts.front());
-  if (flags.empty()) refuse_damaged_mat();
+  if (flags.empty()) throw Damaged{};
   const auto first = static_cast<std::uint32_t>(flags.front());
   MatArray array{first & 0xFFU, (first & kComplex) != 0, {}, 0, 0, {}};
   if (array.kind != kStruct && (array.kind < kFirstOfNumbers || array.kind > kLastOfNumbers)) return std::nullopt;
-  if (parts.size() < 4) refuse_damaged_mat();
+  if (parts.size() < 4) throw Damaged{};
   const auto extents = integers_of(parts[1]);
   if (extents.size() != 2 || extents[0] < 1 || extents[1] < 1 || extents[0] * extents[1] > kMost) return std::nullopt;
   array.rows = static_cast<std::uint64_t>(extents[0]);
@@ -197,12 +166,12 @@ std::vector<MatArray> fields_of(const MatArray& array) {
   std::vector<MatArray> fields;
   if (array.rows * array.columns != 1 || array.parts.size() < 2) return fields;
   const auto lengths = integers_of(array.parts[0]);
-  if (lengths.size() != 1 || lengths[0] < 1) refuse_damaged_mat();
+  if (lengths.size() != 1 || lengths[0] < 1) throw Damaged{};
   const auto length = static_cast<std::size_t>(lengths[0]);
   const std::string_view names = array.parts[1].data;
-  if (names.size() / length + 2 != array.parts.size()) refuse_damaged_mat();
+  if (names.size() / length + 2 != array.parts.size()) throw Damaged{};
   for (std::size_t i = 2; i < array.parts.size(); ++i) {
-    if (array.parts[i].type != MatType::Matrix) refuse_damaged_mat();
+    if (array.parts[i].type != MatType::Matrix) throw Damaged{};
     auto field = read_array(array.parts[i]);
     if (!field) continue;
     field->name = name_in({MatType::Int8, names.substr((i - 2) * length, length)});
@@ -220,11 +189,10 @@ void take_if_numbers(const MatArray& array, const std::string& group, const Take
 
 /// All arrays of real numbers in the file, in their order; the bytes of one variable at a time.
 void visit_arrays(std::string_view file, const Take& take) {
-  if (file.size() < kHeaderBytes) refuse_damaged_mat();
+  if (file.size() < kHeaderBytes) throw Damaged{};
   const std::string_view mark = file.substr(kHeaderBytes - 2, 2);  // the number 0x4D49, written as any other
-  if (mark != "IM" && mark != "MI") refuse_damaged_mat();
-  const bool is_little = mark == "IM";
-  const auto order = is_little == (std::endian::native == std::endian::little) ? MatOrder::AsHere : MatOrder::Swapped;
+  if (mark != "IM" && mark != "MI") throw Damaged{};
+  const auto order = mark == "IM" ? std::endian::little : std::endian::big;
   for (const MatElement& stored : mat_elements(file.substr(kHeaderBytes), order)) {
     const bool is_packed = stored.type == MatType::Compressed;
     const std::string unpacked = is_packed ? inflated(stored.data) : std::string();
@@ -260,25 +228,35 @@ NumberTable table_of(std::string_view file, const TableShape& shape) {
     const std::string name = full_name(array, group);
     if (left.erase(name) == 0) return;
     const auto values = mat_numbers(array.parts.front());
-    if (values.size() != array.rows * array.columns) refuse_damaged_mat();
+    if (values.size() != array.rows * array.columns) throw Damaged{};
     add_columns(table, {name, group, array.columns, array.rows, {}}, values, array.name);
   });
   return table;
 }
 
-}  // namespace
-
-ReadTable read_mat(std::string_view file, const std::optional<std::string>& variable) {
-  const std::vector<ArrayShape> arrays = arrays_in(file);
-  const TableShape shape = choose_table(arrays, variable, file.size());
-  return {table_of(file, shape), shape.name, names_of(recordable_tables(arrays, file.size()))};
-}
-
-// NOLINTNEXTLINE(performance-unnecessary-value-param)
-void take_all_of_mat(std::string_view file, const TakeTable& take) {
-  for (const TableShape& shape : recordable_tables(arrays_in(file), file.size())) {
-    take(shape.name, [&] { return table_of(file, shape); });
+/// Returns the value of `work()`. Throws Refusal if the file is damaged.
+template <class Work>
+auto refusing_damage(const Work& work) {
+  try {
+    return work();
+  } catch (const Damaged&) {
+    throw Refusal({"damaged_container", "the .mat file is damaged or cut off; save it again"});
   }
 }
+
+ReadTable read_mat(std::string_view file, const std::optional<std::string>& variable) {
+  return refusing_damage([&]() -> ReadTable {
+    const TableShape shape = choose_table(arrays_in(file), variable, file.size());
+    return {table_of(file, shape), shape.name};
+  });
+}
+
+std::vector<std::string> tables_in_mat(std::string_view file) {
+  return refusing_damage([&] { return recordable_tables(arrays_in(file), file.size()); });
+}
+
+}  // namespace
+
+const ArrayFormat kMat{read_mat, tables_in_mat};
 
 }  // namespace slipfit::reading

@@ -110,7 +110,7 @@ TableShape choose_table(const std::vector<ArrayShape>& arrays, const std::option
   return chosen;
 }
 
-std::vector<TableShape> recordable_tables(const std::vector<ArrayShape>& arrays, std::uint64_t file_size) {
+std::vector<std::string> recordable_tables(const std::vector<ArrayShape>& arrays, std::uint64_t file_size) {
   constexpr std::uint64_t kFewestRows = 16;  // of a recording
   std::map<std::string, TableShape> by_name;
   for (TableShape& table : tables_of(arrays)) {
@@ -118,23 +118,14 @@ std::vector<TableShape> recordable_tables(const std::vector<ArrayShape>& arrays,
     const auto [place, is_new] = by_name.try_emplace(table.name, table);
     if (!is_new && is_better(table, place->second)) place->second = std::move(table);
   }
-  std::vector<TableShape> tables;
-  tables.reserve(by_name.size());
-  for (auto& [name, table] : by_name) tables.push_back(std::move(table));
-  if (tables.empty()) {
-    if (arrays.empty()) return {choose_table(arrays, std::nullopt, file_size)};  // refuses
-    auto all = tables_of(arrays);
-    tables.push_back(*std::ranges::min_element(all, is_better));
+  if (by_name.empty() && !arrays.empty()) {
+    const std::vector<TableShape> all = tables_of(arrays);
+    const auto best = std::ranges::min_element(all, is_better);
+    if (can_be_named(*best)) by_name.emplace(best->name, *best);
   }
-  std::erase_if(tables, [&](const TableShape& table) { return is_too_large(table, file_size); });
-  return tables;
-}
-
-std::vector<std::string> names_of(const std::vector<TableShape>& tables) {
   std::vector<std::string> names;
-  names.reserve(tables.size());
-  for (const TableShape& table : tables) {
-    if (can_be_named(table)) names.push_back(table.name);
+  for (const auto& [name, table] : by_name) {
+    if (!is_too_large(table, file_size)) names.push_back(name);
   }
   return names;
 }

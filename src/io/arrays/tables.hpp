@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -53,29 +52,23 @@ bool is_called(const std::string& name, std::string wanted);
 void add_columns(NumberTable& table, const ArrayShape& shape, const std::vector<double>& values,
                  const std::string& name);
 
-/// Returns the tables that --variable can name, each name once, from which a recording can be made: at least two
-/// columns and 16 rows. Without any it returns the one that choose_table takes. Throws Refusal.
-std::vector<TableShape> recordable_tables(const std::vector<ArrayShape>& arrays, std::uint64_t file_size);
+/// Returns the names of the tables that --variable can name, each once, from which a recording can be made: at least
+/// two columns and 16 rows; without any, the name of the table that choose_table takes. None is too large.
+std::vector<std::string> recordable_tables(const std::vector<ArrayShape>& arrays, std::uint64_t file_size);
 
-/// A table that was read, and the names of all that could have been.
+/// A table that was read, and its name.
 struct ReadTable {
   NumberTable table;
   std::string name;
-  std::vector<std::string> all;
 };
 
-/// The table in the bytes of a file: of MATLAB 5 to 7; of HDF5, which MATLAB 7.3 writes, too. Throw Refusal.
-ReadTable read_mat(std::string_view file, const std::optional<std::string>& variable);
-ReadTable read_hdf5(std::string_view file, const std::optional<std::string>& variable);
+/// Reads the tables in the bytes of a file. Throws Refusal.
+struct ArrayFormat {
+  ReadTable (*read)(std::string_view file, const std::optional<std::string>& variable) = nullptr;
+  std::vector<std::string> (*tables)(std::string_view file) = nullptr;  ///< names of recordable_tables
+};
 
-/// Called with the name of a table and what reads it, which may throw Refusal.
-using TakeTable = std::function<void(const std::string& name, const std::function<NumberTable()>& read)>;
-
-/// Takes all recordable tables of such a file.
-void take_all_of_mat(std::string_view file, const TakeTable& take);
-void take_all_of_hdf5(std::string_view file, const TakeTable& take);
-
-/// The names of the tables that --variable can name.
-std::vector<std::string> names_of(const std::vector<TableShape>& tables);
+extern const ArrayFormat kMat;   ///< MATLAB 5 to 7
+extern const ArrayFormat kHdf5;  ///< HDF5, which MATLAB 7.3 writes, too
 
 }  // namespace slipfit::reading

@@ -1,9 +1,10 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <bit>
+#include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <string>
 #include <string_view>
 
@@ -25,11 +26,10 @@ class Cursor {
   }
   template <class Number>
   Number number() {
-    std::string raw(bytes(sizeof(Number)));
+    std::array<char, sizeof(Number)> raw{};
+    bytes(raw.size()).copy(raw.data(), raw.size());
     if (order_ != std::endian::native) std::ranges::reverse(raw);
-    Number value{};
-    std::memcpy(&value, raw.data(), sizeof(Number));
-    return value;
+    return std::bit_cast<Number>(raw);
   }
   [[nodiscard]] std::string_view rest() const { return rest_; }
   std::string text() { return std::string(bytes(number<std::uint32_t>())); }
@@ -42,6 +42,26 @@ class Cursor {
 template <class Number>
 double read_number(Cursor& cursor) {
   return static_cast<double>(cursor.number<Number>());
+}
+
+/// A kind of number by the code that a format has for it.
+template <class Code>
+struct NumberType {
+  Code code{};
+  std::size_t bytes = 0;
+  double (*read)(Cursor&) = nullptr;
+};
+
+template <class Number, class Code>
+constexpr NumberType<Code> number_type(Code code) {
+  return {code, sizeof(Number), read_number<Number>};
+}
+
+/// Returns the type with this code, or null if it is no number.
+template <class Types, class Code>
+constexpr auto find_type(const Types& types, const Code& code) {
+  const auto found = std::ranges::find_if(types, [&](const auto& type) { return type.code == code; });
+  return found == types.end() ? nullptr : &*found;
 }
 
 }  // namespace slipfit::reading

@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -16,6 +17,7 @@
 #include "core/thrown_error.hpp"
 #include "slipfit/core/digest.hpp"
 #include "slipfit/core/estimate.hpp"
+#include "slipfit/io/read_options.hpp"
 
 namespace slipfit::reading {
 
@@ -34,67 +36,48 @@ class ByteStream {
 /// Returns all bytes, or nothing if there are more than `most`.
 std::optional<std::string> read_all(ByteStream& stream, std::size_t most);
 
-/// The part of a container that is the recording.
-struct ContainerChoice {
-  std::optional<std::string> sheet;     ///< of a workbook, or the file of a zip archive: name or 1-based number
-  std::optional<std::string> variable;  ///< of a .mat file, dataset of HDF5, group of TDMS
-};
-
-/// The option that selects a table of a file: a sheet, a variable, or none because there is only one table.
-enum class TableKind { One, Sheet, Variable };
-
 /// The text in a file, whatever it is packed in.
 struct TextStream {
   std::unique_ptr<ByteStream> bytes;
   std::shared_ptr<const Digester> digester;  ///< of the bytes of the file itself
   std::size_t size = 0;                      ///< of the text; 0 where it is not known
   std::string start;                         ///< first bytes of the file, which are still to be read
-  std::shared_ptr<const FileHandle> memory;  ///< all bytes as a file without a name, where they are kept so
   std::vector<std::string> assumed;          ///< sentences about the container
-  std::vector<std::string> tables;           ///< that a choice can name
-  TableKind table_kind = TableKind::One;
   Warnings warnings;
 };
 
 /// The bytes of a file, or for "-" of standard input, as they are. Errors: file_not_found, is_directory, not_readable.
 TextStream open_plain(const std::filesystem::path& file);
 
-/// A file that open_plain opened, unpacked where the first bytes say that it is a container; `name`: as messages show
-/// it. Errors: those of containers, no_container.
-TextStream unpacked(TextStream file, const std::string& name, const ContainerChoice& choice);
-
-/// A table of a container, as a choice names it. `open` unpacks it; its errors are those of containers.
-struct PackedTable {
-  std::string name;
-  std::function<TextStream()> open;
+/// A file and the tables in it.
+struct Container {
+  /// Unpacks the table of this name, or without a name the one that is most likely a recording; the text of a file that
+  /// is one table can be taken once.
+  std::function<TextStream(const std::optional<std::string>& table)> open;
+  /// Returns the names of the tables; empty if the file is one table.
+  std::function<std::vector<std::string>()> tables = [] { return std::vector<std::string>(); };
+  std::optional<std::string> ReadOptions::*choice = nullptr;  ///< the option that names a table; null: there is one
+  std::string_view kind = {};                                 ///< "a TDMS file"
+  std::shared_ptr<const Digester> digester = {};              ///< of the bytes of the file
 };
 
-/// Called with the tables of a container one after another; the text of one is not read after the call.
-using TableVisitor = std::function<void(const PackedTable& table)>;
+/// Opens a file of which open_plain has read the beginning, as the container that its first bytes announce; messages
+/// show `name`. The bytes of a file of several tables are read once. Errors: those of containers.
+Container open_container(TextStream file, const std::string& name);
 
-/// Returns the kind of tables in a file that open_plain opened.
-TableKind table_kind_of(const TextStream& file);
-
-/// Visits the tables of a container, whose bytes are read once. Errors: those of containers.
-void visit_tables(TextStream file, const std::string& name, const TableVisitor& visit);
-
-}  // namespace slipfit::reading
+/// Returns the text of the table that the options select. Errors: those of containers; no_container if they select a
+/// table of another kind of file.
+TextStream table_in(const Container& container, const std::string& name, const ReadOptions& options);
 
 // What each kind of container takes to become text. Without the library that a kind needs the error is not_built_in and
 // names Debian's package.
 
-namespace slipfit::reading {
-
 /// A function that opens a container. `packed` contains the bytes of the whole file, which are read once; messages show
 /// `name`.
-using OpenFormat = TextStream(TextStream packed, const std::string& name, const ContainerChoice& choice);
+using OpenFormat = Container(TextStream packed, const std::string& name);
 
-/// Visits all tables of the container.
-using VisitFormat = void(TextStream packed, const std::string& name, const TableVisitor& visit);
-VisitFormat visit_zip;
-VisitFormat visit_tdms;
-VisitFormat visit_hdf5;
-VisitFormat visit_mat;
+/// Returns a file that is one table.
+Container one_table(TextStream text);
 
 /// Unpacked while it is read. Error: not_built_in.
 OpenFormat open_gzip;
@@ -135,9 +118,13 @@ struct HelperOutput {
   std::unique_ptr<ByteStream> bytes;
 };
 
-/// The program gets all bytes of `input` as a file in memory. Errors: not_built_in, damaged_container,
-/// container_too_large, not_readable, that of its first line ("!CODE MESSAGE").
-HelperOutput run_helper(const Helper& helper, TextStream input, const std::string& name);
+/// Starts the program with `input` as kFileOfHelper. Errors: not_built_in, damaged_container, not_readable, that of its
+/// first line ("!CODE MESSAGE").
+HelperOutput run_helper(const Helper& helper, const FileHandle& input, const std::string& name);
+
+/// Writes all bytes of a stream into a file without a name, as helpers need it: their libraries read in any order, and
+/// the bytes may come through a pipe. Error: container_too_large.
+FileHandle file_in_memory(ByteStream& stream, const std::string& name);
 
 ThrownError damaged(const std::string& name, const std::string& what);
 ThrownError too_large(const std::string& name);

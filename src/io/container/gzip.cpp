@@ -72,16 +72,16 @@ class GzipStream final : public ByteStream {
 
 }  // namespace
 
-TextStream open_gzip(TextStream packed, const std::string& name, const ContainerChoice& /*choice*/) {
+Container open_gzip(TextStream packed, const std::string& name) {
   packed.bytes = std::make_unique<GzipStream>(std::move(packed.bytes), name);
   packed.size = 0;
   packed.assumed.emplace_back("The file is compressed (gzip).");
-  return packed;
+  return one_table(std::move(packed));
 }
 
 #else
 
-TextStream open_gzip(TextStream /*packed*/, const std::string& name, const ContainerChoice& /*choice*/) {
+Container open_gzip(TextStream /*packed*/, const std::string& name) {
   throw not_built_in(name, "compressed with gzip", "zlib1g-dev and libminizip-dev");
 }
 

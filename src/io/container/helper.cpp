@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <charconv>
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
@@ -18,7 +17,6 @@
 
 #include "core/file_handle.hpp"
 #include "io/container/formats.hpp"
-#include "io/container/kept_file.hpp"
 #include "io/message.hpp"
 
 namespace slipfit::reading {
@@ -204,115 +202,33 @@ std::unique_ptr<ProgramStream> start(const Helper& helper, const FileHandle& inp
   throw ThrownError({"not_readable", name + ": " + helper.program + " cannot be started; check its permissions"});
 }
 
-Helper array_reader(const std::string& kind) {
-  return {"slipfit-hdf5", {kind, kFileOfHelper}, "a MATLAB or HDF5 file", "libhdf5-dev"};
-}
-
-std::string sentence_of(const std::string& table) {
-  return "Of the file '" + printable_utf8(table) + "' was read.";
-}
-
-TextStream open_with_reader(const char* kind, TextStream packed, const std::string& name,
-                            const ContainerChoice& choice) {
-  Helper helper = array_reader(kind);
-  if (choice.variable) helper.arguments.push_back(*choice.variable);
-  HelperOutput read = run_helper(helper, std::move(packed), name);
-  TextStream text;
-  std::istringstream names(read.first);
-  std::string table;
-  std::getline(names, table, '\t');
-  text.assumed.push_back(sentence_of(table));
-  while (std::getline(names, table, '\t')) text.tables.push_back(table);
-  text.bytes = std::move(read.bytes);
-  return text;
-}
-
-/// The tables that slipfit-hdf5 writes one after another, each in pieces.
-class TablePieces {
- public:
-  TablePieces(std::unique_ptr<ByteStream> bytes, std::string name) : bytes_(std::move(bytes)), name_(std::move(name)) {}
-
-  /// Up to the next line end; empty at the end of all.
-  std::string line() {
-    constexpr std::size_t kLongest = std::size_t{64} * 1024;
-    std::string text;
-    char c = '\0';
-    while (text.size() < kLongest && bytes_->read(&c, 1) == 1 && c != '\n') text += c;
+/// The tables in a .mat or HDF5 file, which the program slipfit-hdf5 lists and reads.
+Container arrays_in(const std::string& kind, TextStream packed, const std::string& name) {
+  const auto file = std::make_shared<const FileHandle>(file_in_memory(*packed.bytes, name));
+  const auto run = [file, name](std::vector<std::string> arguments) {
+    return run_helper({"slipfit-hdf5", std::move(arguments), "a MATLAB or HDF5 file", "libhdf5-dev"}, *file, name);
+  };
+  const auto open = [=](const std::optional<std::string>& variable) {
+    std::vector<std::string> arguments{kind, kFileOfHelper};
+    if (variable) arguments.push_back(*variable);
+    HelperOutput read = run(arguments);
+    TextStream text;
+    text.assumed.push_back("Of the file '" + printable_utf8(read.first) + "' was read.");
+    text.bytes = std::move(read.bytes);
     return text;
-  }
-  /// Starts the table whose name was read. The error is that of its first line.
-  void begin() { next_piece(); }
-  std::size_t read(char* buffer, std::size_t size) {
-    std::size_t count = 0;
-    while (count < size && left_ > 0) {
-      const std::size_t got = bytes_->read(buffer + count, std::min(size - count, left_));
-      if (got == 0) throw damaged(name_, "the file is damaged");
-      count += got;
-      left_ -= got;
-      if (left_ == 0) next_piece();
-    }
-    return count;
-  }
-  void skip_rest() {
-    std::vector<char> unread(std::size_t{64} * 1024);
-    while (read(unread.data(), unread.size()) > 0) continue;
-  }
-
- private:
-  void next_piece() {
-    const std::string head = line();
-    left_ = 0;
-    if (head.starts_with('!')) {
-      const std::size_t blank = std::min(head.find(' '), head.size());
-      throw ThrownError({head.substr(1, blank - 1), name_ + ": " + printable_utf8(head.substr(blank))});
-    }
-    const auto [end, error] = std::from_chars(head.data(), head.data() + head.size(), left_);
-    if (error != std::errc() || end != head.data() + head.size()) throw damaged(name_, "the file is damaged");
-  }
-
-  std::unique_ptr<ByteStream> bytes_;
-  std::string name_;
-  std::size_t left_ = 0;  ///< of the piece
-};
-
-class PieceStream final : public ByteStream {
- public:
-  explicit PieceStream(std::shared_ptr<TablePieces> pieces) : pieces_(std::move(pieces)) {}
-  std::size_t read(char* buffer, std::size_t size) override { return pieces_->read(buffer, size); }
-
- private:
-  std::shared_ptr<TablePieces> pieces_;
-};
-
-void visit_with_reader(const char* kind, TextStream packed, const std::string& name, const TableVisitor& visit) {
-  HelperOutput output = run_helper(array_reader(kind), std::move(packed), name);
-  const auto pieces = std::make_shared<TablePieces>(std::move(output.bytes), name);
-  for (std::string line = "=" + output.first; line.starts_with('='); line = pieces->line()) {
-    const std::string table = line.substr(1);
-    bool has_begun = false;
-    const auto begin = [&] {
-      has_begun = true;
-      pieces->begin();
-    };
-    visit({table, [&] {
-             begin();
-             TextStream text;
-             text.bytes = std::make_unique<PieceStream>(pieces);
-             text.assumed.push_back(sentence_of(table));
-             return text;
-           }});
-    if (!has_begun) begin();
-    pieces->skip_rest();
-  }
+  };
+  return {open, [=] {
+            std::istringstream list(run({kind + "-tables", kFileOfHelper}).first);
+            std::vector<std::string> tables;
+            for (std::string table; std::getline(list, table, '\t');) tables.push_back(table);
+            return tables;
+          }};
 }
 
 }  // namespace
 
-HelperOutput run_helper(const Helper& helper, TextStream input, const std::string& name) {
-  // The libraries need a file with random access: one in memory, so that the bytes are read once, and may come through
-  // a pipe.
-  if (input.memory == nullptr) input.memory = std::make_shared<const FileHandle>(file_in_memory(*input.bytes, name));
-  std::unique_ptr<ProgramStream> bytes = start(helper, *input.memory, name);
+HelperOutput run_helper(const Helper& helper, const FileHandle& input, const std::string& name) {
+  std::unique_ptr<ProgramStream> bytes = start(helper, input, name);
   const std::string first = bytes->line();
   if (first.starts_with('=')) return {first.substr(1), std::move(bytes)};
   const std::size_t blank = std::min(first.find(' '), first.size());
@@ -320,20 +236,32 @@ HelperOutput run_helper(const Helper& helper, TextStream input, const std::strin
   throw ThrownError({first.substr(1, blank - 1), name + ": " + printable_utf8(first.substr(blank + 1))});
 }
 
-TextStream open_hdf5(TextStream packed, const std::string& name, const ContainerChoice& choice) {
-  return open_with_reader("hdf5", std::move(packed), name, choice);
+FileHandle file_in_memory(ByteStream& stream, const std::string& name) {
+  constexpr std::size_t kMostBytes = std::size_t{2} << 30U;
+  FileHandle file(platform::open_nameless_file());
+  if (!file) throw too_large(name);
+  std::vector<char> piece(std::size_t{256} * 1024);
+  std::size_t size = 0;
+  while (const std::size_t got = stream.read(piece.data(), piece.size())) {
+    size += got;
+    if (size > kMostBytes) throw too_large(name);
+    for (std::size_t written = 0; written < got;) {
+      const ::ssize_t count = ::write(file.get(), piece.data() + written, got - written);
+      if (count < 0 && errno == EINTR) continue;
+      if (count <= 0) throw too_large(name);
+      written += static_cast<std::size_t>(count);
+    }
+  }
+  (void)::lseek(file.get(), 0, SEEK_SET);  // a program may inherit the place
+  return file;
 }
 
-TextStream open_mat(TextStream packed, const std::string& name, const ContainerChoice& choice) {
-  return open_with_reader("mat", std::move(packed), name, choice);
+Container open_hdf5(TextStream packed, const std::string& name) {
+  return arrays_in("hdf5", std::move(packed), name);
 }
 
-void visit_hdf5(TextStream packed, const std::string& name, const TableVisitor& visit) {
-  visit_with_reader("hdf5-all", std::move(packed), name, visit);
-}
-
-void visit_mat(TextStream packed, const std::string& name, const TableVisitor& visit) {
-  visit_with_reader("mat-all", std::move(packed), name, visit);
+Container open_mat(TextStream packed, const std::string& name) {
+  return arrays_in("mat", std::move(packed), name);
 }
 
 }  // namespace slipfit::reading

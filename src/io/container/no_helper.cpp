@@ -19,56 +19,36 @@ auto with_name(const std::string& name, const Work& work) {
   }
 }
 
-TextStream text_of_table(NumberTable table, const std::string& name) {
-  TextStream text;
-  text.bytes = text_of(std::move(table));
-  text.assumed.push_back("Of the file '" + printable_utf8(name) + "' was read.");
-  return text;
-}
-
-using ReadOne = ReadTable(std::string_view file, const std::optional<std::string>& variable);
-
-TextStream open_arrays(ReadOne* read, TextStream packed, const std::string& name, const ContainerChoice& choice) {
-  const std::string file = read_all(packed, name);
-  ReadTable found = with_name(name, [&] { return read(file, choice.variable); });
-  TextStream text = text_of_table(std::move(found.table), found.name);
-  text.tables = std::move(found.all);
-  return text;
-}
-
-using TakeAll = void(std::string_view file, const TakeTable& take);
-
-void visit_arrays_of(TakeAll* take_all, TextStream packed, const std::string& name, const TableVisitor& visit) {
-  const std::string file = read_all(packed, name);
-  with_name(name, [&] {
-    take_all(file, [&](const std::string& table, const std::function<NumberTable()>& read) {
-      visit({table, [&] { return text_of_table(with_name(name, read), table); }});
-    });
-  });
+Container arrays_in(const ArrayFormat& format, TextStream packed, const std::string& name) {
+  const auto file = std::make_shared<const std::string>(read_all(packed, name));
+  const auto open = [=](const std::optional<std::string>& variable) {
+    ReadTable read = with_name(name, [&] { return format.read(*file, variable); });
+    TextStream text;
+    text.bytes = text_of(std::move(read.table));
+    text.assumed.push_back("Of the file '" + printable_utf8(read.name) + "' was read.");
+    return text;
+  };
+  return {open, [=] { return with_name(name, [&] { return format.tables(*file); }); }};
 }
 
 }  // namespace
 
-HelperOutput run_helper(const Helper& helper, TextStream /*input*/, const std::string& name) {
+HelperOutput run_helper(const Helper& helper, const FileHandle& /*input*/, const std::string& name) {
   throw ThrownError(
       {"not_built_in",
        name + ": " + helper.kind + ", which slipfit cannot read in a browser; export it as text, or use the program"});
 }
 
-TextStream open_hdf5(TextStream packed, const std::string& name, const ContainerChoice& choice) {
-  return open_arrays(read_hdf5, std::move(packed), name, choice);
+FileHandle file_in_memory(ByteStream& /*stream*/, const std::string& /*name*/) {
+  return {};  // no helper takes it
 }
 
-TextStream open_mat(TextStream packed, const std::string& name, const ContainerChoice& choice) {
-  return open_arrays(read_mat, std::move(packed), name, choice);
+Container open_hdf5(TextStream packed, const std::string& name) {
+  return arrays_in(kHdf5, std::move(packed), name);
 }
 
-void visit_hdf5(TextStream packed, const std::string& name, const TableVisitor& visit) {
-  visit_arrays_of(take_all_of_hdf5, std::move(packed), name, visit);
-}
-
-void visit_mat(TextStream packed, const std::string& name, const TableVisitor& visit) {
-  visit_arrays_of(take_all_of_mat, std::move(packed), name, visit);
+Container open_mat(TextStream packed, const std::string& name) {
+  return arrays_in(kMat, std::move(packed), name);
 }
 
 }  // namespace slipfit::reading

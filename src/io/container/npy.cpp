@@ -20,32 +20,21 @@
 namespace slipfit::reading {
 namespace {
 
-/// Holds a kind of number by its name without the order of its bytes.
-struct ArrayType {
-  std::string_view name;
-  std::size_t size = 0;
-  double (*read)(Cursor&) = nullptr;
-};
+using namespace std::string_view_literals;
 
-constexpr auto kArrayTypes = std::to_array<ArrayType>({
-    {"f4", 4, read_number<float>},
-    {"f8", 8, read_number<double>},
-    {"i1", 1, read_number<std::int8_t>},
-    {"i2", 2, read_number<std::int16_t>},
-    {"i4", 4, read_number<std::int32_t>},
-    {"i8", 8, read_number<std::int64_t>},
-    {"u1", 1, read_number<std::uint8_t>},
-    {"u2", 2, read_number<std::uint16_t>},
-    {"u4", 4, read_number<std::uint32_t>},
-    {"u8", 8, read_number<std::uint64_t>},
-});
+/// By the name without the order of the bytes.
+constexpr std::array kArrayTypes{number_type<float>("f4"sv),         number_type<double>("f8"sv),
+                                 number_type<std::int8_t>("i1"sv),   number_type<std::int16_t>("i2"sv),
+                                 number_type<std::int32_t>("i4"sv),  number_type<std::int64_t>("i8"sv),
+                                 number_type<std::uint8_t>("u1"sv),  number_type<std::uint16_t>("u2"sv),
+                                 number_type<std::uint32_t>("u4"sv), number_type<std::uint64_t>("u8"sv)};
 
 /// Describes a number of a row: its column, its place in the row and how it is read.
 struct Field {
   std::string name;  ///< empty: none is stated
   std::size_t offset = 0;
   std::endian order = std::endian::little;
-  const ArrayType* type = nullptr;
+  const NumberType<std::string_view>* type = nullptr;
 };
 
 /// Holds what the first line of an array states.
@@ -56,13 +45,6 @@ struct NpyHeader {
   std::size_t row_step = 0;  ///< bytes from a row to the next of the same column
   std::string_view numbers;  ///< all bytes behind the line
 };
-
-/// Returns the type of "<f8", or nothing where it is no real number.
-const ArrayType* type_of(std::string_view name) {
-  const auto* const found =
-      std::ranges::find(kArrayTypes, name.substr(std::min<std::size_t>(1, name.size())), &ArrayType::name);
-  return found == kArrayTypes.end() ? nullptr : found;
-}
 
 ThrownError no_table(const std::string& name, const std::string& what) {
   return ThrownError(
@@ -117,12 +99,13 @@ NpyHeader npy_header(std::string_view file, const std::string& name) {
   const std::regex field(has_names ? R"(\('([^']*)',\s*'([^']*)'\))" : "()'([^']*)'");
   for (std::sregex_iterator one(types.begin(), types.end(), field), end; one != end; ++one) {
     const std::string type_name = (*one)[2];
-    const ArrayType* const type = type_of(type_name);
+    const auto* const type =
+        find_type(kArrayTypes, std::string_view(type_name).substr(std::min<std::size_t>(1, type_name.size())));
     if (type == nullptr) throw no_table(name, fmt::format("values of the type '{}'", printable_utf8(type_name)));
     const std::endian order = type_name.front() == '>' ? std::endian::big : std::endian::little;
     for (std::size_t i = 0; i < columns; ++i) {
       header.fields.push_back({(*one)[1], header.row_bytes, order, type});
-      header.row_bytes += type->size;
+      header.row_bytes += type->bytes;
     }
   }
   if (header.fields.empty() || header.rows > header.numbers.size() / header.row_bytes) throw Damaged{};
@@ -151,7 +134,7 @@ NumberTable table_of(std::string_view file, const std::string& name) {
 
 }  // namespace
 
-TextStream open_npy(TextStream packed, const std::string& name, const ContainerChoice& /*choice*/) {
+Container open_npy(TextStream packed, const std::string& name) {
   const std::string file = read_all(packed, name);
   TextStream text;
   try {
@@ -159,7 +142,7 @@ TextStream open_npy(TextStream packed, const std::string& name, const ContainerC
   } catch (const Damaged&) {
     throw damaged(name, "the NumPy file is cut off or damaged");
   }
-  return text;
+  return one_table(std::move(text));
 }
 
 }  // namespace slipfit::reading

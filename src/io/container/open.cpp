@@ -53,7 +53,68 @@ ThrownError open_error(const std::string& name, int reason) {
       {"not_readable", name + ": cannot be opened (" + std::strerror(reason) + "); check the permissions"});
 }
 
-TextStream open_bytes(const std::filesystem::path& file) {
+/// A kind of file by its first bytes, and the option that chooses a table in it.
+struct Format {
+  std::string_view magic;
+  std::size_t offset = 0;
+  OpenFormat* open = nullptr;
+  std::string_view kind;
+  std::optional<std::string> ReadOptions::*choice = nullptr;
+};
+
+using namespace std::string_view_literals;
+constexpr std::array kFormats = std::to_array<Format>({
+    {"\x1F\x8B"sv, 0, open_gzip, "text compressed with gzip"},
+    {"PK\x03\x04"sv, 0, open_zip, "a workbook or a zip archive", &ReadOptions::sheet},
+    {"TDSm"sv, 0, open_tdms, "a TDMS file", &ReadOptions::variable},
+    {"\x89HDF\r\n\x1a\n"sv, 0, open_hdf5, "an HDF5 file", &ReadOptions::variable},
+    {"MATLAB 5.0 MAT-file"sv, 0, open_mat, "a MATLAB file", &ReadOptions::variable},
+    {"\x89HDF\r\n\x1a\n"sv, 512, open_hdf5, "a MATLAB file", &ReadOptions::variable},  // behind the user's own block
+    {"\x93NUMPY"sv, 0, open_npy, "an array of NumPy"},
+    {"\xD0\xCF\x11\xE0\xA1\xB1\x1A\xE1"sv, 0, open_old_workbook, {}},
+    {{}, 0, [](TextStream text, const std::string&) { return one_table(std::move(text)); }, "plain text"},
+});
+
+struct TableOption {
+  std::optional<std::string> ReadOptions::*choice = nullptr;
+  std::string_view name;
+  std::string_view tables;
+};
+constexpr std::array<TableOption, 2> kTableOptions{
+    {{&ReadOptions::sheet, "--sheet", "sheets"}, {&ReadOptions::variable, "--variable", "variables"}}};
+
+/// An option that has no meaning in this kind of file is no option to leave unread.
+void check_choice(const Container& container, const ReadOptions& options, const std::string& name) {
+  for (const TableOption& given : kTableOptions) {
+    if (!(options.*given.choice) || container.choice == given.choice) continue;
+    const auto* const other = std::ranges::find(kTableOptions, container.choice, &TableOption::choice);
+    const std::string advice =
+        other == kTableOptions.end() ? std::string() : fmt::format(" (or choose with {})", other->name);
+    throw ThrownError({"no_container", fmt::format("{}: is {}, which has no {}; leave out {}{}", name, container.kind,
+                                                   given.tables, given.name, advice)});
+  }
+}
+
+}  // namespace
+
+ThrownError damaged(const std::string& name, const std::string& what) {
+  return ThrownError({"damaged_container", fmt::format("{}: {}; copy or export the file again", name, what)});
+}
+
+ThrownError too_large(const std::string& name) {
+  return ThrownError(
+      {"container_too_large",
+       name + ": decompresses to far more than a recording; decompress it yourself and give the file in it"});
+}
+
+ThrownError not_built_in(const std::string& name, const std::string& kind, const std::string& package) {
+  return ThrownError(
+      {"not_built_in", fmt::format("{}: {}, which this build of slipfit cannot read; export it as CSV, or build "
+                                   "slipfit with Debian's {}",
+                                   name, kind, package)});
+}
+
+TextStream open_plain(const std::filesystem::path& file) {
   constexpr std::size_t kStart = 1024;
   const std::string name = name_of_file(file);
   std::error_code ignored;
@@ -79,107 +140,34 @@ TextStream open_bytes(const std::filesystem::path& file) {
   return stream;
 }
 
-/// A kind of file by its first bytes, and the option that chooses something in it.
-struct Format {
-  std::string_view magic;
-  std::size_t offset = 0;
-  OpenFormat* open = nullptr;
-  VisitFormat* visit = nullptr;  ///< nothing: it holds one table
-  std::string_view kind;
-  std::string_view option;
-};
-
-using namespace std::string_view_literals;
-constexpr std::string_view kSheet = "--sheet";
-constexpr std::string_view kVariable = "--variable";
-constexpr std::array kFormats = std::to_array<Format>({
-    {"\x1F\x8B"sv, 0, open_gzip, nullptr, "text compressed with gzip", {}},
-    {"PK\x03\x04"sv, 0, open_zip, visit_zip, "a workbook or a zip archive", kSheet},
-    {"TDSm"sv, 0, open_tdms, visit_tdms, "a TDMS file", kVariable},
-    {"\x89HDF\r\n\x1a\n"sv, 0, open_hdf5, visit_hdf5, "an HDF5 file", kVariable},
-    {"MATLAB 5.0 MAT-file"sv, 0, open_mat, visit_mat, "a MATLAB file", kVariable},
-    {"\x89HDF\r\n\x1a\n"sv, 512, open_hdf5, visit_hdf5, "a MATLAB file",
-     kVariable},  // behind a block of the user's own
-    {"\x93NUMPY"sv, 0, open_npy, nullptr, "an array of NumPy", {}},
-    {"\xD0\xCF\x11\xE0\xA1\xB1\x1A\xE1"sv, 0, open_old_workbook, nullptr, {}, {}},
-    {{}, 0, nullptr, nullptr, "plain text", {}},
-});
-
-const Format& format_of(std::string_view start) {
-  return *std::ranges::find_if(kFormats, [&](const Format& format) {
-    return start.size() >= format.offset && start.substr(format.offset).starts_with(format.magic);
-  });
-}
-
-/// An option that has no meaning in this kind of file is no option to leave unread.
-void check_choice(const Format& format, const ContainerChoice& choice, const std::string& name) {
-  for (const std::string_view option : {kSheet, kVariable}) {
-    const bool is_given = (option == kSheet ? choice.sheet : choice.variable).has_value();
-    if (!is_given || format.kind.empty() || format.option == option) continue;
-    const std::string_view has = option == kSheet ? "sheets" : "variables";
-    throw ThrownError(
-        {"no_container", fmt::format("{}: is {}, which has no {}; leave out {}{}", name, format.kind, has, option,
-                                     format.option.empty() ? "" : fmt::format(" (or choose with {})", format.option))});
-  }
-}
-
-}  // namespace
-
-ThrownError damaged(const std::string& name, const std::string& what) {
-  return ThrownError({"damaged_container", fmt::format("{}: {}; copy or export the file again", name, what)});
-}
-
-ThrownError too_large(const std::string& name) {
-  return ThrownError(
-      {"container_too_large",
-       name + ": decompresses to far more than a recording; decompress it yourself and give the file in it"});
-}
-
-ThrownError not_built_in(const std::string& name, const std::string& kind, const std::string& package) {
-  return ThrownError(
-      {"not_built_in", fmt::format("{}: {}, which this build of slipfit cannot read; export it as CSV, or build "
-                                   "slipfit with Debian's {}",
-                                   name, kind, package)});
-}
-
-TextStream open_old_workbook(TextStream /*packed*/, const std::string& name, const ContainerChoice& /*choice*/) {
+Container open_old_workbook(TextStream /*packed*/, const std::string& name) {
   throw ThrownError(
       {"old_workbook",
        name + ": a workbook in the format used before 2007 (.xls) or a similar document; save it as .xlsx or CSV"});
 }
 
-TextStream open_plain(const std::filesystem::path& file) {
-  return open_bytes(file);
+Container one_table(TextStream text) {
+  return {[kept = std::make_shared<TextStream>(std::move(text))](const auto&) { return std::move(*kept); }};
 }
 
-TableKind table_kind_of(const TextStream& file) {
-  const Format& format = format_of(file.start);
-  if (format.visit == nullptr) return TableKind::One;
-  return format.option == kSheet ? TableKind::Sheet : TableKind::Variable;
-}
-
-TextStream unpacked(TextStream file, const std::string& name, const ContainerChoice& choice) {
-  const Format& format = format_of(file.start);
-  check_choice(format, choice, name);
-  if (format.open == nullptr) return file;
-  auto digester = file.digester;
-  const TableKind kind = table_kind_of(file);
-  TextStream text = format.open(std::move(file), name, choice);
-  text.table_kind = kind;
-  text.digester = std::move(digester);
-  return text;
-}
-
-void visit_tables(TextStream file, const std::string& name, const TableVisitor& visit) {
-  const auto digester = file.digester;
-  const Format& format = format_of(file.start);
-  format.visit(std::move(file), name, [&](const PackedTable& table) {
-    visit({table.name, [&] {
-             TextStream text = table.open();
-             text.digester = digester;
-             return text;
-           }});
+Container open_container(TextStream file, const std::string& name) {
+  const std::string_view start = file.start;
+  const Format& format = *std::ranges::find_if(kFormats, [start](const Format& one) {
+    return start.size() >= one.offset && start.substr(one.offset).starts_with(one.magic);
   });
+  auto digester = file.digester;
+  Container container = format.open(std::move(file), name);
+  container.choice = format.choice;
+  container.kind = format.kind;
+  container.digester = std::move(digester);
+  return container;
+}
+
+TextStream table_in(const Container& container, const std::string& name, const ReadOptions& options) {
+  check_choice(container, options, name);
+  TextStream text = container.open(container.choice == nullptr ? std::nullopt : options.*container.choice);
+  text.digester = container.digester;
+  return text;
 }
 
 std::optional<std::string> read_all(ByteStream& stream, std::size_t most) {

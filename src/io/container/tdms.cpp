@@ -2,17 +2,19 @@
 // lead-in, meta data and raw data. Channels of plain numbers and time stamps are read; DAQmx raw data and strings are
 // not.
 
-#include "io/container/tdms.hpp"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
-#include <cstring>
+#include <cstdint>
 #include <map>
+#include <optional>
+#include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include "io/container/cursor.hpp"
 #include "io/container/formats.hpp"
@@ -37,43 +39,44 @@ constexpr std::uint32_t kNoData = 0xFFFFFFFF;
 constexpr std::uint32_t kFormatChanging = 0x00001269;
 constexpr std::uint32_t kDigitalLine = 0x0000126A;
 
+constexpr std::uint32_t kTdmsTimeStamp = 0x44;
+
+/// A channel with its values, and the position of the reader in it.
+struct TdmsChannel {
+  std::string path;
+  std::string unit;
+  std::optional<double> increment_s;
+  double offset_s = 0.0;
+  bool is_scaled = false;  ///< its integers mean something else
+  bool is_daqmx = false;
+  bool has_data = false;  ///< in this segment
+  std::uint32_t type = 0;
+  std::uint64_t count = 0;  ///< values in a block
+  std::uint64_t bytes = 0;  ///< of a block
+  std::vector<double> values;
+};
+
+struct TdmsContent {
+  std::vector<TdmsChannel> channels;  ///< in the order in which they appear
+  std::uint64_t bytes_left_over = 0;  ///< of a block that is not whole, which a writer that was stopped leaves
+};
+
 double read_time_stamp(Cursor& cursor) {
   const double fraction = std::ldexp(read_number<std::uint64_t>(cursor), -64);
   return read_number<std::int64_t>(cursor) + fraction;
 }
 
-struct NumberType {
-  std::uint32_t code = 0;
-  std::size_t bytes = 0;
-  double (*read)(Cursor&) = nullptr;
-};
-
-constexpr std::array kNumberTypes = std::to_array<NumberType>({
-    {1, 1, read_number<std::int8_t>},
-    {2, 2, read_number<std::int16_t>},
-    {3, 4, read_number<std::int32_t>},
-    {4, 8, read_number<std::int64_t>},
-    {5, 1, read_number<std::uint8_t>},
-    {6, 2, read_number<std::uint16_t>},
-    {7, 4, read_number<std::uint32_t>},
-    {8, 8, read_number<std::uint64_t>},
-    {9, 4, read_number<float>},
-    {10, 8, read_number<double>},
-    {0x19, 4, read_number<float>},
-    {0x1A, 8, read_number<double>},
-    {0x21, 1, read_number<std::uint8_t>},
-    {kTdmsTimeStamp, 16, read_time_stamp},
-});
-
-/// Null for what has no fixed size or is no number.
-const NumberType* type_with_code(std::uint32_t code) {
-  const auto* const found =
-      std::ranges::find_if(kNumberTypes, [code](const NumberType& type) { return type.code == code; });
-  return found == kNumberTypes.end() ? nullptr : found;
-}
+constexpr std::array kNumberTypes{
+    number_type<std::int8_t>(1U),     number_type<std::int16_t>(2U),
+    number_type<std::int32_t>(3U),    number_type<std::int64_t>(4U),
+    number_type<std::uint8_t>(5U),    number_type<std::uint16_t>(6U),
+    number_type<std::uint32_t>(7U),   number_type<std::uint64_t>(8U),
+    number_type<float>(9U),           number_type<double>(10U),
+    number_type<float>(0x19U),        number_type<double>(0x1AU),
+    number_type<std::uint8_t>(0x21U), NumberType<std::uint32_t>{kTdmsTimeStamp, 16, read_time_stamp}};
 
 void append_value(TdmsChannel& channel, Cursor& cursor) {
-  const NumberType* const type = type_with_code(channel.type);
+  const auto* const type = find_type(kNumberTypes, channel.type);
   if (type == nullptr) throw Damaged{};
   channel.values.push_back(type->read(cursor));
 }
@@ -148,7 +151,7 @@ class TdmsReader {
       skip_vector(4);
       return;
     }
-    const NumberType* const type = type_with_code(channel.type);
+    const auto* const type = find_type(kNumberTypes, channel.type);
     if (type == nullptr && channel.type != kString) throw Damaged{};
     if (type != nullptr && channel.count > UINT64_MAX / type->bytes) throw Damaged{};
     channel.bytes = type == nullptr ? cursor.number<std::uint64_t>() : channel.count * type->bytes;
@@ -162,7 +165,7 @@ class TdmsReader {
       if (name == "unit_string") channel.unit = value;
       return;
     }
-    const NumberType* const number = type_with_code(type);
+    const auto* const number = find_type(kNumberTypes, type);
     if (number == nullptr) throw Damaged{};
     const double value = number->read(cursor);
     if (name == "wf_increment" && value > 0.0) channel.increment_s = value;
@@ -214,19 +217,6 @@ class TdmsReader {
   std::vector<std::size_t> order_;  ///< channels with data in this segment
   std::uint64_t left_over_ = 0;
 };
-
-}  // namespace
-
-std::optional<TdmsContent> read_tdms(std::string_view file) {
-  TdmsReader reader(file);
-  try {
-    return reader.read();
-  } catch (const Damaged&) {
-    return std::nullopt;
-  }
-}
-
-namespace {
 
 /// "Group" and "Channel" of "/'Group'/'Channel'"; a quote in a name is doubled. Empty where there is no such part.
 std::pair<std::string, std::string> names_in(const std::string& path) {
@@ -285,13 +275,13 @@ std::vector<std::string> names_of(const std::map<std::string, std::size_t>& valu
 
 /// The group with the most values, or the one that was asked for.
 std::string choose_group(const std::map<std::string, std::size_t>& values, const std::string& name,
-                         const ContainerChoice& choice) {
-  if (choice.variable) {
-    if (values.contains(*choice.variable)) return *choice.variable;
+                         const std::optional<std::string>& wanted) {
+  if (wanted) {
+    if (values.contains(*wanted)) return *wanted;
     throw ThrownError(
         {"unknown_variable",
          fmt::format("{}: the TDMS file contains no group '{}' with numbers, only '{}'; choose one with --variable",
-                     name, printable_utf8(*choice.variable),
+                     name, printable_utf8(*wanted),
                      printable_utf8(fmt::format("{}", fmt::join(names_of(values), "', '"))))});
   }
   return std::ranges::max_element(values, [](const auto& a, const auto& b) { return a.second < b.second; })->first;
@@ -299,16 +289,21 @@ std::string choose_group(const std::map<std::string, std::size_t>& values, const
 
 /// Errors: damaged_container, container_too_large, daqmx_channels.
 TdmsContent read_file(TextStream packed, const std::string& name) {
-  auto tdms = read_tdms(read_all(packed, name));
-  if (!tdms) throw damaged(name, "the TDMS file is cut off or damaged");
-  for (const TdmsChannel& channel : tdms->channels) {
+  TdmsContent tdms;
+  try {
+    const std::string file = read_all(packed, name);
+    tdms = TdmsReader(file).read();
+  } catch (const Damaged&) {
+    throw damaged(name, "the TDMS file is cut off or damaged");
+  }
+  for (const TdmsChannel& channel : tdms.channels) {
     if (!channel.is_daqmx && !channel.is_scaled) continue;
     throw ThrownError(
         {"daqmx_channels",
          fmt::format("{}: channel '{}' contains raw DAQmx data, whose scale is not read; export scaled values or CSV",
                      name, printable_utf8(names_in(channel.path).second))});
   }
-  return *std::move(tdms);
+  return tdms;
 }
 
 TextStream text_of_group(const TdmsContent& tdms, const std::string& group) {
@@ -326,19 +321,12 @@ TextStream text_of_group(const TdmsContent& tdms, const std::string& group) {
 
 }  // namespace
 
-TextStream open_tdms(TextStream packed, const std::string& name, const ContainerChoice& choice) {
-  const TdmsContent tdms = read_file(std::move(packed), name);
-  const auto values = values_by_group(tdms.channels, name);
-  TextStream text = text_of_group(tdms, choose_group(values, name, choice));
-  text.tables = names_of(values);
-  return text;
-}
-
-void visit_tdms(TextStream packed, const std::string& name, const TableVisitor& visit) {
-  const TdmsContent tdms = read_file(std::move(packed), name);
-  for (const std::string& group : names_of(values_by_group(tdms.channels, name))) {
-    visit({group, [&] { return text_of_group(tdms, group); }});
-  }
+Container open_tdms(TextStream packed, const std::string& name) {
+  const auto tdms = std::make_shared<const TdmsContent>(read_file(std::move(packed), name));
+  const auto values = values_by_group(tdms->channels, name);
+  return {
+      [=](const std::optional<std::string>& group) { return text_of_group(*tdms, choose_group(values, name, group)); },
+      [=] { return names_of(values); }};
 }
 
 }  // namespace slipfit::reading

@@ -237,10 +237,6 @@ std::string sheet_text(const pugi::xml_document& sheet, const Workbook& workbook
   return text;
 }
 
-}  // namespace
-
-namespace {
-
 std::vector<std::string> names_of(const std::vector<Sheet>& sheets, const std::string& name) {
   if (sheets.empty()) throw damaged(name, "the workbook contains no sheet");
   std::vector<std::string> names;
@@ -260,38 +256,27 @@ TextStream text_of_sheet(const ZipArchive& archive, const Workbook& workbook, co
 
 }  // namespace
 
-TextStream open_workbook(const ZipArchive& archive, const std::string& name, const ContainerChoice& choice) {
-  const Workbook workbook = read_workbook(archive, name);
-  const std::vector<Sheet>& sheets = workbook.sheets;
-  const std::vector<std::string> names = names_of(sheets, name);
-  const auto largest =
-      std::ranges::max_element(sheets, [](const Sheet& a, const Sheet& b) { return a.bytes < b.bytes; });
-  const Sheet& chosen = choice.sheet ? sheets[find_named(names, *choice.sheet, name)] : *largest;
-  TextStream stream = text_of_sheet(archive, workbook, chosen, name);
-  stream.tables = names;
-  stream.assumed.push_back(
-      sheets.size() == 1 ? fmt::format("Sheet '{}' of the workbook was read.", printable_utf8(chosen.name))
-                         : fmt::format("Sheet '{}' of {} in the workbook was read{}.", printable_utf8(chosen.name),
-                                       sheets.size(), choice.sheet ? "" : " (the largest; --sheet selects another)"));
-  return stream;
-}
-
-void visit_workbook(const ZipArchive& archive, const std::string& name, const TableVisitor& visit) {
-  const Workbook workbook = read_workbook(archive, name);
-  (void)names_of(workbook.sheets, name);
-  for (const Sheet& sheet : workbook.sheets) {
-    visit({sheet.name, [&] { return text_of_sheet(archive, workbook, sheet, name); }});
-  }
+Container workbook_in(const std::shared_ptr<const ZipArchive>& archive, const std::string& name) {
+  const auto workbook = std::make_shared<const Workbook>(read_workbook(*archive, name));
+  const std::vector<std::string> names = names_of(workbook->sheets, name);
+  const auto open = [=](const std::optional<std::string>& wanted) {
+    const std::vector<Sheet>& sheets = workbook->sheets;
+    const Sheet& chosen =
+        wanted ? sheets[find_named(names, *wanted, name)] : *std::ranges::max_element(sheets, {}, &Sheet::bytes);
+    TextStream stream = text_of_sheet(*archive, *workbook, chosen, name);
+    stream.assumed.push_back(
+        sheets.size() == 1 ? fmt::format("Sheet '{}' of the workbook was read.", printable_utf8(chosen.name))
+                           : fmt::format("Sheet '{}' of {} in the workbook was read{}.", printable_utf8(chosen.name),
+                                         sheets.size(), wanted ? "" : " (the largest; --sheet selects another)"));
+    return stream;
+  };
+  return {open, [=] { return names; }};
 }
 
 #else
 
-TextStream open_workbook(const ZipArchive& /*archive*/, const std::string& name, const ContainerChoice& /*choice*/) {
+Container workbook_in(const std::shared_ptr<const ZipArchive>& /*archive*/, const std::string& name) {
   throw not_built_in(name, "a workbook (.xlsx)", "libpugixml-dev");
-}
-
-void visit_workbook(const ZipArchive& archive, const std::string& name, const TableVisitor& /*visit*/) {
-  (void)open_workbook(archive, name, {});
 }
 
 #endif

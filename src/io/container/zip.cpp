@@ -171,43 +171,28 @@ TextStream text_of_member(const ZipArchive& archive, const std::string& member) 
   return text;
 }
 
-bool is_workbook(const ZipArchive& archive) {
-  return archive.find("xl/workbook.xml") != nullptr;
-}
-
 }  // namespace
 
-TextStream open_zip(TextStream packed, const std::string& name, const ContainerChoice& choice) {
-  const ZipArchive archive = ZipArchive::open(read_all(packed, name), name);
-  if (is_workbook(archive)) return open_workbook(archive, name, choice);
-  const std::vector<std::string> names = files_in(archive, name);
-  if (names.size() > 1 && !choice.sheet) {
-    throw ThrownError(
-        {"unknown_sheet",
-         fmt::format("{}: the zip archive contains {} files ({}, {}, ...); unpack it, or choose one with --sheet", name,
-                     names.size(), printable_utf8(names[0]), printable_utf8(names[1]))});
-  }
-  TextStream text = text_of_member(archive, names[choice.sheet ? find_named(names, *choice.sheet, name) : 0]);
-  text.tables = names;
-  return text;
-}
-
-void visit_zip(TextStream packed, const std::string& name, const TableVisitor& visit) {
-  const ZipArchive archive = ZipArchive::open(read_all(packed, name), name);
-  if (is_workbook(archive)) return visit_workbook(archive, name, visit);
-  for (const std::string& member : files_in(archive, name)) {
-    visit({member, [&] { return text_of_member(archive, member); }});
-  }
+Container open_zip(TextStream packed, const std::string& name) {
+  const auto archive = std::make_shared<const ZipArchive>(ZipArchive::open(read_all(packed, name), name));
+  if (archive->find("xl/workbook.xml") != nullptr) return workbook_in(archive, name);
+  const std::vector<std::string> names = files_in(*archive, name);
+  const auto open = [=](const std::optional<std::string>& file) {
+    if (names.size() > 1 && !file) {
+      throw ThrownError(
+          {"unknown_sheet",
+           fmt::format("{}: the zip archive contains {} files ({}, {}, ...); unpack it, or choose one with --sheet",
+                       name, names.size(), printable_utf8(names[0]), printable_utf8(names[1]))});
+    }
+    return text_of_member(*archive, names[file ? find_named(names, *file, name) : 0]);
+  };
+  return {open, [=] { return names; }};
 }
 
 #else
 
-TextStream open_zip(TextStream /*packed*/, const std::string& name, const ContainerChoice& /*choice*/) {
+Container open_zip(TextStream /*packed*/, const std::string& name) {
   throw not_built_in(name, "a zip archive or a workbook (.xlsx)", "zlib1g-dev, libminizip-dev and libpugixml-dev");
-}
-
-void visit_zip(TextStream packed, const std::string& name, const TableVisitor& /*visit*/) {
-  (void)open_zip(std::move(packed), name, {});
 }
 
 #endif

@@ -36,11 +36,9 @@ class ZipArchive {
   std::unordered_map<std::string, std::size_t> places_;  ///< index into members_ by name
 };
 
-/// A workbook (.xlsx) as CSV. Errors: damaged_container, container_too_large, unknown_sheet, not_built_in.
-TextStream open_workbook(const ZipArchive& archive, const std::string& name, const ContainerChoice& choice);
-
-/// Visits all its sheets.
-void visit_workbook(const ZipArchive& archive, const std::string& name, const TableVisitor& visit);
+/// A workbook (.xlsx), whose sheets are read as CSV. Errors: damaged_container, container_too_large, unknown_sheet,
+/// not_built_in.
+Container workbook_in(const std::shared_ptr<const ZipArchive>& archive, const std::string& name);
 
 /// The place of a part by its name, else by its 1-based number. Error: unknown_sheet, with the names listed.
 std::size_t find_named(const std::vector<std::string>& names, const std::string& wanted, const std::string& file);
