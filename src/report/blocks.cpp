@@ -62,21 +62,16 @@ std::vector<std::string> defects_of(const Recording& recording, const Quality& q
   return found;
 }
 
-template <class Unit>
-void add_estimate(std::vector<Row>& rows, std::string_view label, const Estimate& estimate, const Unit& unit) {
-  if (!estimate.value && !estimate.ci95 && estimate.note.empty()) return;
-  const EstimateRow shown = estimate_row(estimate, unit);
-  rows.push_back({std::string(label), shown.value, shown.unit, shown.interval, printable(estimate.note)});
-}
-
 }  // namespace
 
 void Block::add(std::string_view label, const Estimate& estimate, const std::string& SI_unit) {
-  add_estimate(rows, label, estimate, SI_unit);
+  add(label, estimate, suitable_unit(estimate, SI_unit));
 }
 
 void Block::add(std::string_view label, const Estimate& estimate, const DisplayUnit& unit) {
-  add_estimate(rows, label, estimate, unit);
+  if (!estimate.value && !estimate.ci95 && estimate.note.empty()) return;
+  const EstimateRow shown = estimate_row(estimate, unit);
+  rows.push_back({std::string(label), shown.value, shown.unit, shown.interval, printable(estimate.note)});
 }
 
 namespace {

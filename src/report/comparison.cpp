@@ -3,12 +3,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <algorithm>
-#include <array>
 
 #include "core/unknown.hpp"
 #include "report/comparison_rows.hpp"
 #include "report/format.hpp"
-#include "report/json_sections.hpp"
+#include "report/json_values.hpp"
 #include "report/text_sections.hpp"
 #include "slipfit/core/printable.hpp"
 #include "slipfit/report/text.hpp"
@@ -17,15 +16,10 @@ namespace slipfit {
 
 namespace {
 
-std::string_view name_of(ComparisonMethod method) {
-  constexpr std::array<std::string_view, 4> kNames{"standard_errors", "welch", "scatter_of_a", "scatter_of_b"};
-  return kNames[static_cast<std::size_t>(method)];
-}
-
 Json side_json(const ComparisonSide& side) {
   return Json{{"name", side.name}, {"recordings", array_of(side.fits, [](const ComparedFit& fit) {
                                       return Json{{"id", fit.id},
-                                                  {"file", fit.file.empty() ? Json() : Json(fit.file)},
+                                                  {"file", text_or_null(fit.file)},
                                                   {"status", fit.motion},
                                                   {"speed_m_per_s", fit.speed_m_per_s},
                                                   {"normal_force_N", fit.normal_force_N}};
@@ -46,7 +40,7 @@ Json quantity_json(const QuantityComparison& quantity) {
               {"ratio", quantity.ratio},
               {"p_value", quantity.p_value},
               {"p_adjusted", quantity.p_adjusted},
-              {"method", quantity.method ? Json(name_of(*quantity.method)) : Json()}};
+              {"method", quantity.method}};
 }
 
 std::string p_text(std::optional<double> p) {

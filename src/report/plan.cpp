@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "report/format.hpp"
-#include "report/json_sections.hpp"
+#include "report/json_values.hpp"
 #include "report/text_sections.hpp"
 #include "slipfit/core/printable.hpp"
 #include "slipfit/report/text.hpp"

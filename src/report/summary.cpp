@@ -284,7 +284,7 @@ std::vector<Parameter> parameters_of(const JsonNode& document) {
   std::vector<Parameter> parameters;
   for (const ParameterInfo& known : parameter_table()) {
     const std::optional<JsonNode> found = document.known("parameters", std::string(known.key));
-    const auto status = found ? with_name(kParameterStatuses, found->text_at("status")) : std::nullopt;
+    const auto status = found ? with_name<ParameterStatus>(found->text_at("status")) : std::nullopt;
     if (status) parameters.push_back({known.id, found->estimate(), *status});
   }
   return parameters;
@@ -296,8 +296,8 @@ Estimate estimate_of(const JsonNode& document, const Quantity& quantity) {
 
 std::string terms_text(const JsonNode& document) {
   std::string terms;
-  for (const JsonNode& term : document.elements("model", "terms")) {
-    const std::vector<JsonNode> keys = term.elements("parameters");  // none: a fact
+  for (const JsonNode& term : document.elements_of("model", "terms")) {
+    const std::vector<JsonNode> keys = term.elements_of("parameters");  // none: a fact
     const std::optional<ParameterId> first = keys.empty() ? std::nullopt : parameter_with_key(keys.front().text());
     if (first && !is_headline(*first)) terms += (terms.empty() ? "" : "; ") + term.text_at("text");
   }
@@ -370,14 +370,16 @@ void add_below_table(Screen& screen, const SummaryInput& input) {
 }
 
 MotionClass motion_of(const JsonNode& document) {
-  return with_name(kMotions, document.text_at("status")).value_or(MotionClass::Undetermined);
+  return with_name<MotionClass>(document.text_at("status")).value_or(MotionClass::Undetermined);
 }
 
 std::string headline_of(const JsonNode& document, const Conditions& conditions) {
+  constexpr std::array<std::string_view, kNames<MotionClass>.size()> kWords{
+      "stick-slip", "steady sliding, no stick-slip", "oscillatory slip (almost no sticks)", "motion undetermined"};
   std::string file = document.member("recording").text_at("file");
   if (file.size() > kLongestName) file = std::filesystem::path(file).filename().string();
-  std::string text =
-      fmt::format("{}: {}", file.empty() ? "recording" : printable(file), words_for_motion(motion_of(document)));
+  std::string text = fmt::format("{}: {}", file.empty() ? "recording" : printable(file),
+                                 kWords.at(static_cast<std::size_t>(motion_of(document))));
   const Estimate frequency = estimate_of(document, kFrequency);
   if (frequency.value) {
     const EstimateRow row = estimate_row(frequency, std::string("Hz"));
@@ -446,7 +448,7 @@ std::string summary_of(const JsonNode& document, const SummaryHints& hints) {
     input.zero_is_known = input.conditions.zero_force_N.has_value();
     return summary_of_recording(input, hints);
   }
-  const std::vector<JsonNode> recordings = document.elements("recordings");
+  const std::vector<JsonNode> recordings = document.elements_of("recordings");
   input.zero_is_known = std::ranges::all_of(
       recordings, [](const JsonNode& one) { return one.member("recording").number_at("zero_force_N").has_value(); });
   if (!recordings.empty()) input.conditions = conditions_of(recordings.front().member("recording"));

@@ -2,20 +2,18 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <numbers>
 
 #include "core/unknown.hpp"
 #include "report/blocks.hpp"
-#include "report/json_sections.hpp"
+#include "report/json_values.hpp"
 #include "report/quantity_rows.hpp"
 #include "report/text_sections.hpp"
 
 namespace slipfit {
 
 std::string name_of(SurfaceStatus status) {
-  constexpr std::array<const char*, 4> kNames{"periodic", "irregular", "none", "undetermined"};
-  return kNames.at(static_cast<std::size_t>(status));
+  return std::string(kNames<SurfaceStatus>.at(static_cast<std::size_t>(status)));
 }
 
 std::string to_json(const Profile& profile, const Surface& surface) {
@@ -26,14 +24,14 @@ std::string to_json(const Profile& profile, const Surface& surface) {
       {"pitch_m", profile.pitch_m},
       {"rows", profile.rows},
       {"along_degrees", profile.along_rad ? Json(*profile.along_rad * 180.0 / std::numbers::pi) : Json()}};
-  json["status"] = name_of(surface.status);
+  json["status"] = surface.status;
   for (const auto& quantity : kPattern) {
     const Estimate estimate = quantity.of(surface);
     json[std::string(quantity.key)] = quantity.is_number ? Json(estimate.value) : Json(estimate);
   }
   json["ridge_height_m"] = profile.height_in_metres ? surface.ridge_height : unknown("the heights have no unit");
   json["ridges"] = surface.ridges;
-  json["method"] = surface.method ? Json(*surface.method == SurfaceMethod::Comb ? "comb" : "ridges") : Json();
+  json["method"] = surface.method;
   json["warnings"] = surface.warnings;
   json["assumed"] = profile.assumed;
   return text_of(json);

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include "analysis/rules.hpp"
 #include "report/blocks.hpp"
@@ -37,12 +39,16 @@ std::string notes_text(const std::vector<Parameter>& parameters) {
 }  // namespace
 
 std::vector<std::string> status_meanings(const std::vector<Parameter>& parameters) {
+  constexpr auto kMeanings = std::to_array<std::pair<ParameterStatus, std::string_view>>(
+      {{ParameterStatus::Weak, "an estimate that should be confirmed"},
+       {ParameterStatus::Bounded, "only an interval is known"},
+       {ParameterStatus::Unidentified, "the data do not determine it"},
+       {ParameterStatus::Conditional, "determined if the assumption in its note holds"},
+       {ParameterStatus::Fixed, "fixed at the stated value"}});
   std::vector<std::string> meanings;
-  for (const auto status : {ParameterStatus::Weak, ParameterStatus::Bounded, ParameterStatus::Unidentified,
-                            ParameterStatus::Conditional, ParameterStatus::Fixed}) {
-    const bool occurs =
-        std::ranges::any_of(parameters, [status](const Parameter& parameter) { return parameter.status == status; });
-    if (occurs) meanings.push_back(fmt::format("{}: {}", name_of(status), words_for_status(status)));
+  for (const auto& [status, meaning] : kMeanings) {
+    if (std::ranges::find(parameters, status, &Parameter::status) == parameters.end()) continue;
+    meanings.push_back(fmt::format("{}: {}", name_of(status), meaning));
   }
   return meanings;
 }

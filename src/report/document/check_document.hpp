@@ -1,7 +1,6 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <string>
 
 #include "report/document/json_node.hpp"
@@ -26,8 +25,5 @@ Result<Value> with_document(const std::string& content, const std::string& name,
     return refused.error();
   }
 }
-
-/// A number >= 0, or null.
-std::optional<double> checked_error(const JsonNode& node);
 
 }  // namespace slipfit::documents

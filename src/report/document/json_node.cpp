@@ -56,22 +56,11 @@ JsonNode JsonNode::member(const std::string& key) const {
   return {file_, *found, place_of(key)};
 }
 
-std::optional<JsonNode> JsonNode::known(const std::string& key) const {
-  return has(key) && !member(key).is_null() ? std::optional(member(key)) : std::nullopt;
-}
-
-std::optional<JsonNode> JsonNode::known(const std::string& key, const std::string& further) const {
-  const std::optional<JsonNode> found = known(key);
-  return found ? found->known(further) : std::nullopt;
-}
-
-JsonNode JsonNode::element(std::size_t index) const {
-  return {file_, content_.at(index), fmt::format("{}[{}]", place_, index)};
-}
-
-std::size_t JsonNode::array_size() const {
-  if (!content_.is_array()) fail("a list");
-  return content_.size();
+std::vector<JsonNode> JsonNode::elements(std::optional<std::size_t> length, const std::string& expected) const {
+  if (!content_.is_array() || (length && content_.size() != *length)) fail(expected);
+  std::vector<JsonNode> all;
+  for (const json& element : content_) all.push_back({file_, element, fmt::format("{}[{}]", place_, all.size())});
+  return all;
 }
 
 std::string JsonNode::text() const {
@@ -85,10 +74,10 @@ std::optional<double> JsonNode::number(const std::string& expected) const {
   return content_.get<double>();
 }
 
-double JsonNode::positive() const {
-  const std::optional<double> value = number("a number > 0");
-  if (!value || !(*value > 0.0)) fail("a number > 0");
-  return *value;
+std::optional<double> JsonNode::not_negative() const {
+  const std::optional<double> value = number();
+  if (value && !(*value >= 0.0)) fail("a number >= 0 or null");
+  return value;
 }
 
 std::vector<JsonNode::Member> JsonNode::members() const {
@@ -117,7 +106,8 @@ std::optional<double> JsonNode::number_at(const std::string& key) const {
 Estimate JsonNode::estimate(const std::string& suffix) const {
   Estimate estimate{number_at("value" + suffix), number_at("se" + suffix), {}, text_at("note")};
   if (const auto bounds = known("ci95" + suffix)) {
-    estimate.ci95 = Interval{*bounds->element(0).number(), *bounds->element(1).number()};
+    const std::vector<JsonNode> ends = bounds->elements();  // two numbers, as check_document demands
+    estimate.ci95 = Interval{*ends[0].number(), *ends[1].number()};
   }
   return estimate;
 }
@@ -154,7 +144,7 @@ std::optional<DocumentQuantity> quantity_in(const JsonNode& document, const Quan
 
 Warnings warnings_in(const JsonNode& document) {
   Warnings warnings;
-  for (const JsonNode& warning : document.elements("warnings"))
+  for (const JsonNode& warning : document.elements_of("warnings"))
     warnings.push_back({warning.member("code").text(), warning.member("message").text()});
   return warnings;
 }

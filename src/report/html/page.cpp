@@ -14,7 +14,7 @@
 #include "report/blocks.hpp"
 #include "report/html/assets.hpp"
 #include "report/html/figure.hpp"
-#include "report/json_sections.hpp"
+#include "report/json_values.hpp"
 #include "report/names.hpp"
 #include "report/quantity_rows.hpp"
 #include "report/text_sections.hpp"

@@ -11,7 +11,7 @@
 #include "core/thresholds.hpp"
 #include "report/html/figure.hpp"
 #include "report/html/page.hpp"
-#include "report/json_sections.hpp"
+#include "report/json_values.hpp"
 
 namespace slipfit::html {
 namespace {
