@@ -132,7 +132,7 @@ std::string left_out_part(std::size_t rows, const char* file) {
 
 std::string failures_part(const std::vector<BatchPageFailure>& failures) {
   if (failures.empty()) return {};
-  std::vector<std::vector<std::string>> rows;
+  std::vector<std::vector<Cell>> rows;
   for (const BatchPageFailure& failure : std::span(failures).first(std::min(kMostRows, failures.size()))) {
     rows.push_back({text(failure.id), text(failure.message), "<code>" + text(failure.code) + "</code>"});
   }
@@ -207,7 +207,8 @@ std::string batch_row(const BatchPageRow& row) {
       spark(row.sparkline), text(plain_words(row.status)), speed,
       row.speed_m_per_s ? fmt::format("{:.6g}", 1e3 * *row.speed_m_per_s) : std::string("-"));
   for (std::size_t i = 0; i < kColumns.size(); ++i) {
-    cells += quantity_cell(row.quantities[i].estimate, kColumns[i].per_SI, row.quantities[i].status);
+    const Cell cell = quantity_cell(row.quantities[i].estimate, kColumns[i].per_SI, row.quantities[i].status);
+    cells += fmt::format("<td class=\"number\"{}>{}</td>", cell.attributes, cell.content);
   }
   std::string codes;
   for (const std::string& code : row.warnings) codes += "<span>" + text(code) + " </span>";
@@ -242,11 +243,10 @@ std::string to_html(const BatchPage& page) {
   parts.title = page.title;
   parts.kind = "batch";
   parts.headline = html::summary_of(page, counts);
-  parts.main =
-      html::filled(assets::table_part(), {{"statuses", html::options_of(counts)},
-                                          {"table", html::table_of(page.rows)},
-                                          {"left_out", html::left_out_part(page.rows.size(), "results.jsonl")}}) +
-      html::distributions(page.rows) + html::failures_part(page.failures);
+  parts.main = fmt::format(fmt::runtime(assets::table_part()), fmt::arg("statuses", html::options_of(counts)),
+                           fmt::arg("table", html::table_of(page.rows)),
+                           fmt::arg("left_out", html::left_out_part(page.rows.size(), "results.jsonl"))) +
+               html::distributions(page.rows) + html::failures_part(page.failures);
   parts.scripts = html::script_element(assets::table_script());
   return html::page_from(parts);
 }

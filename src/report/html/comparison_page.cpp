@@ -32,41 +32,35 @@ Figure both_cycles_figure(const ComparisonOrigin& origin) {
   return figure;
 }
 
-std::string number_cell(const EstimateRow& row) {
-  return "<td class=\"number\">" + text(row.value) + small(row.interval) + "</td>";
-}
-
-std::string table_row(const ComparisonRow& row) {
-  const std::string note = row.note.empty() ? "" : "<span class=\"note\">" + formula_text(row.note) + "</span>";
-  return fmt::format("<tr><td>{}{}</td><td>{}</td>{}{}{}{}<td class=\"number\">{}<small>alone: {}</small></td></tr>\n",
-                     formula_text(row.words), note, row.differs ? "yes" : "not shown", number_cell(row.a),
-                     number_cell(row.b), number_cell(row.difference), number_cell(row.ratio), text(row.p_adjusted),
-                     text(row.p_value));
-}
-
 std::string quantities_part(const Comparison& comparison) {
-  std::string rows;
-  for (const ComparisonRow& row : comparison_rows(comparison)) rows += table_row(row);
-  std::vector<std::string> absent;
-  for (const NotCompared& one : not_compared(comparison)) absent.push_back(formula_text(one.words + ": " + one.reason));
+  const auto number = [](const EstimateRow& row) { return Cell(text(row.value) + small(row.interval)); };
+  std::vector<std::vector<Cell>> rows;
+  for (const ComparisonRow& row : comparison_rows(comparison)) {
+    rows.push_back({formula_text(row.words) + note(row.note), std::string(row.differs ? "yes" : "not shown"),
+                    number(row.a), number(row.b), number(row.difference), number(row.ratio),
+                    fmt::format("{}<small>alone: {}</small>", text(row.p_adjusted), text(row.p_value))});
+  }
+  std::vector<std::string> left_out;
+  for (const NotCompared& one : not_compared(comparison))
+    left_out.push_back(formula_text(one.words + ": " + one.reason));
   const std::string compared =
       rows.empty()
-          ? "<p class=\"absent\">None.</p>\n"
+          ? absent("None.")
           : "<p class=\"guide\">In brackets: 95 % intervals. p: probability of at least this difference if A and B "
             "were equal, for all quantities together (Holm; different below 0.05) and for each quantity alone.</p>\n" +
                 table(" class=\"plain-table\"", {"quantity", "differs", "#A", "#B", "#B - A", "#B / A", "#p"}, rows);
   return section(" id=\"quantities\" class=\"flows\"", "What is compared", compared) +
-         (absent.empty() ? "" : section(" id=\"absent\"", "What cannot be compared", list(absent)));
+         (left_out.empty() ? "" : section(" id=\"absent\"", "What cannot be compared", list(left_out)));
 }
 
-std::string recordings_part(const Comparison& comparison, const ComparisonOrigin& origin) {
-  std::string facts = fact("program", fmt::format("slipfit {}", SLIPFIT_VERSION)) + command_fact(origin.command_line);
+std::string files_of(const Comparison& comparison) {
+  std::string facts;
   for (const auto& [side, name] : {std::pair{&comparison.a, 'A'}, std::pair{&comparison.b, 'B'}}) {
     for (const ComparedFit& fit : side->fits) {
       facts += fact(fmt::format("{}: {}", name, fit.id), fit.file.empty() ? "several recordings" : fit.file);
     }
   }
-  return section(" id=\"repeat\" class=\"flows\"", "To repeat this", fact_list(facts));
+  return facts;
 }
 
 }  // namespace
@@ -80,7 +74,7 @@ std::string to_html(const Comparison& comparison, const ComparisonOrigin& origin
   page.summary = html::fact_list(html::fact("A", side_text(comparison.a)) + html::fact("B", side_text(comparison.b))) +
                  html::warnings_part(comparison.warnings);
   page.main = html::quantities_part(comparison) + html::figure_part(html::both_cycles_figure(origin)) +
-              html::recordings_part(comparison, origin);
+              html::repeat_part(" class=\"flows\"", origin.command_line, html::files_of(comparison));
   return html::page_from(page);
 }
 

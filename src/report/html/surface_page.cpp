@@ -88,8 +88,7 @@ std::string to_html(const Profile& profile, const Surface& surface, const std::s
   page.headline = html::surface_headline(surface);
   page.summary = html::warnings_part(surface.warnings);
   page.main = html::figure_part(html::profile_figure(profile, surface)) +
-              html::block_part(pattern_block(profile, surface)) +
-              html::section(" id=\"repeat\"", "To repeat this", html::fact_list(html::command_fact(command_line)));
+              html::block_part(pattern_block(profile, surface)) + html::repeat_part("", command_line, "");
   return html::page_from(page);
 }
 
