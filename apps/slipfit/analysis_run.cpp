@@ -37,6 +37,12 @@ ExitCode exit_code_for(const std::string& error_code) {
   return options ? ExitCode::WrongUsage : ExitCode::BadRecording;
 }
 
+template <class Value>
+Value usable(slipfit::Result<Value> read) {
+  const ExitCode exit = read ? ExitCode::Analysed : exit_code_for(read.error().code);
+  return value_or_fail(std::move(read), exit);
+}
+
 slipfit::Recording read(const AnalysisArguments& arguments) {
   slipfit::ManifestEntry entry = entry_from(arguments.recording);
   if (!arguments.surface.file.empty()) {
@@ -44,10 +50,8 @@ slipfit::Recording read(const AnalysisArguments& arguments) {
     entry.conditions.worn_track =
         std::make_shared<const slipfit::WornTrack>(slipfit::worn_track_of(measured.profile, measured.surface));
   }
-  auto recording =
-      slipfit::with_data(slipfit::read_recording(only_file(arguments.recording), entry.conditions, entry.options));
-  if (!recording) throw Failure(exit_code_for(recording.error().code), recording.error());
-  return std::move(recording).value();
+  return usable(
+      slipfit::with_data(slipfit::read_recording(only_file(arguments.recording), entry.conditions, entry.options)));
 }
 
 std::string timing_text(const slipfit::Timing& timing) {
@@ -55,16 +59,15 @@ std::string timing_text(const slipfit::Timing& timing) {
                      timing.frequency_s, timing.fit_s, timing.total_s);
 }
 
-std::string document(const AnalysisArguments& arguments, const slipfit::Recording& recording,
+/// The document, in JSON with this id; empty: that of the recording.
+std::string document(const AnalysisArguments& arguments, const std::string& id, const slipfit::Recording& recording,
                      const slipfit::Analysis& analysis) {
-  if (!arguments.document.json) {
-    const auto text =
-        arguments.document.details ? slipfit::to_text(recording, analysis) : slipfit::to_summary(recording, analysis);
-    return text + (arguments.timing ? timing_text(analysis.timing) : std::string());
+  if (arguments.document.json) {
+    return slipfit::to_json(recording, analysis, {.id = id, .timing = arguments.timing}) + "\n";
   }
-  slipfit::JsonOptions options;
-  options.timing = arguments.timing;
-  return slipfit::to_json(recording, analysis, options) + "\n";
+  const auto text =
+      arguments.document.details ? slipfit::to_text(recording, analysis) : slipfit::to_summary(recording, analysis);
+  return text + (arguments.timing ? timing_text(analysis.timing) : std::string());
 }
 
 void write_all_results(const AnalysisArguments& arguments, const slipfit::Recording& recording,
@@ -75,19 +78,17 @@ void write_all_results(const AnalysisArguments& arguments, const slipfit::Record
   write_results(arguments.document, [&](const std::string& option) {
     if (option == "--cycles") return slipfit::cycles_to_csv(recording, analysis);
     if (option == "--curve") return slipfit::curve_to_csv(recording, analysis);
-    if (option == "--report") return slipfit::to_html(recording, analysis, background, {arguments.command_line});
-    return document(arguments, recording, analysis);
-  });
-  const auto notice = [&arguments](const std::string& text) {
-    if (!arguments.document.quiet) say(text);
-  };
-  if (arguments.plots) {
-    const auto pictures = slipfit::report_pictures(recording, analysis, background);
-    for (const slipfit::PictureFile& picture : pictures) {
-      write_file({"--plots", (std::filesystem::path(*arguments.plots) / picture.name).string()}, picture.content);
+    if (option == "--report") {
+      return slipfit::to_html(recording, analysis, background, {arguments.document.command_line});
     }
-    notice(fmt::format("wrote {} pictures to '{}'", pictures.size(), *arguments.plots));
+    return document(arguments, {}, recording, analysis);
+  });
+  if (!arguments.plots) return;
+  const auto pictures = slipfit::report_pictures(recording, analysis, background);
+  for (const slipfit::PictureFile& picture : pictures) {
+    write_file({"--plots", (std::filesystem::path(*arguments.plots) / picture.name).string()}, picture.content);
   }
+  arguments.document.notify(fmt::format("wrote {} pictures to '{}'", pictures.size(), *arguments.plots));
 }
 
 /// The first option that is given and asks for something of one recording alone; empty: none.
@@ -101,32 +102,15 @@ std::string option_of_one(const AnalysisArguments& arguments) {
   return {};
 }
 
-void refuse_for_pieces(const AnalysisArguments& arguments) {
-  const std::string option = option_of_one(arguments);
-  if (option.empty()) return;
-  throw Failure(ExitCode::WrongUsage,
-                fmt::format("{} applies to one recording and cannot be combined with --strokes or --segments", option));
-}
-
 void refuse_for_several(const AnalysisArguments& arguments) {
   std::string option = option_of_one(arguments);
   if (arguments.document.has("--report")) option = "--report";
   if (!arguments.surface.file.empty()) option = "--surface";
   if (option.empty()) return;
-  throw Failure(ExitCode::WrongUsage, fmt::format("{} applies to one recording, but {} are given; slipfit batch with "
-                                                  "--out DIR and --report DIR/index.html writes a page for each",
-                                                  option, arguments.recording.files.size()));
-}
-
-std::string text_or_json(const AnalysisArguments& arguments, const slipfit::ManifestEntry& entry,
-                         const slipfit::Recording& recording, const slipfit::Analysis& analysis) {
-  if (!arguments.document.json) {
-    return arguments.document.details ? slipfit::to_text(recording, analysis)
-                                      : slipfit::to_summary(recording, analysis);
-  }
-  slipfit::JsonOptions options;
-  options.id = entry.id;
-  return slipfit::to_json(recording, analysis, options) + "\n";
+  refuse(
+      "{} applies to one recording, but {} are given; slipfit batch with --out DIR and --report DIR/index.html "
+      "writes a page for each",
+      option, arguments.recording.files.size());
 }
 
 }  // namespace
@@ -161,7 +145,7 @@ void run_each(const AnalysisArguments& arguments,
   for (const std::string& file : arguments.recording.files) check_outputs(arguments.document.outputs, file);
   const slipfit::ManifestDraft draft = slipfit::draft_manifest(
       {arguments.recording.files.begin(), arguments.recording.files.end()}, read_options_from(arguments.recording));
-  const auto entries = entries_of(draft, arguments.recording, notifier(arguments.document));
+  const auto entries = entries_of(draft, arguments.recording, arguments.document);
   SeveralDocuments documents(entries.size() + draft.skipped.size(), arguments.document.json);
   for (const slipfit::Error& error : draft.skipped) documents.add_failure(ExitCode::BadRecording, error);
   for (const slipfit::ManifestEntry& entry : entries) {
@@ -170,7 +154,7 @@ void run_each(const AnalysisArguments& arguments,
       documents.add_failure(exit_code_for(recording.error().code), recording.error());
       continue;
     }
-    documents.add(text_or_json(arguments, entry, recording.value(), analysis(recording.value())));
+    documents.add(document(arguments, entry.id, recording.value(), analysis(recording.value())));
   }
   documents.write(arguments.document);
 }
@@ -181,12 +165,12 @@ bool is_of_pieces(const AnalysisArguments& arguments) {
 
 void run_pieces(const AnalysisArguments& arguments,
                 const std::function<slipfit::SweepAnalysis(const std::vector<slipfit::SweepEntry>&)>& analysis) {
-  refuse_for_pieces(arguments);
+  if (const std::string option = option_of_one(arguments); !option.empty()) {
+    refuse("{} applies to one recording and cannot be combined with --strokes or --segments", option);
+  }
   const std::string& file = only_file(arguments.recording);
   check_outputs(arguments.document.outputs, file);
   const slipfit::ManifestEntry entry = entry_from(arguments.recording);
-  const auto pieces = slipfit::read_pieces(file, entry.conditions, entry.options);
-  if (!pieces) throw Failure(exit_code_for(pieces.error().code), pieces.error());
-  write_sweep({std::filesystem::path(file).stem().string(), arguments.document, arguments.command_line}, pieces.value(),
-              analysis(pieces.value()));
+  const auto pieces = usable(slipfit::read_pieces(file, entry.conditions, entry.options));
+  write_sweep(std::filesystem::path(file).stem().string(), arguments.document, pieces, analysis(pieces));
 }

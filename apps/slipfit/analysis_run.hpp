@@ -19,7 +19,6 @@ struct AnalysisArguments {
   bool timing = false;
   std::optional<std::string> plots;  ///< folder for SVG files
   SurfaceArguments surface;          ///< the worn track; an empty file name: none
-  std::string command_line;          ///< as typed, for the report
 };
 
 void add_analysis_options(CLI::App& command, AnalysisArguments& arguments);

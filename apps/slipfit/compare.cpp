@@ -4,7 +4,6 @@
 
 #include <filesystem>
 #include <fstream>
-#include <memory>
 
 #include "commands.hpp"
 #include "document_file.hpp"
@@ -29,7 +28,6 @@ struct CompareArguments {
   std::vector<std::string> groups;
   RecordingArguments recording;
   DocumentOptions document;
-  std::string command_line;
 };
 
 /// The arguments of one side.
@@ -52,11 +50,10 @@ bool is_results_file(const std::string& file) {
 }
 
 void add_fit(const std::string& document, const std::string& place, const SideArguments& arguments, Source& source) {
-  auto fit = slipfit::compared_fit(document, place);
-  if (!fit) throw Failure(ExitCode::WrongUsage, fit.error());
-  const bool is_joint = fit.value().id.starts_with("group:");
-  if (is_joint || (arguments.group && fit.value().group != *arguments.group)) return;
-  source.side.fits.push_back(std::move(fit).value());
+  slipfit::ComparedFit fit = value_or_fail(slipfit::compared_fit(document, place));
+  const bool is_joint = fit.id.starts_with("group:");
+  if (is_joint || (arguments.group && fit.group != *arguments.group)) return;
+  source.side.fits.push_back(std::move(fit));
 }
 
 void add_results(const std::string& file, const SideArguments& arguments, Source& source) {
@@ -69,17 +66,11 @@ void add_results(const std::string& file, const SideArguments& arguments, Source
     add_fit(line, fmt::format("{}:{}", file, number), arguments, source);
   }
   if (source.side.fits.size() > before) return;
-  const std::string group = arguments.group ? fmt::format(" of group '{}'", *arguments.group) : std::string();
-  throw Failure(ExitCode::WrongUsage, fmt::format("'{}': no result{} in it", file, group));
-}
-
-void keep_group(const std::string& group, std::vector<ManifestEntry>& entries) {
-  std::erase_if(entries, [&group](const ManifestEntry& entry) { return entry.group != group; });
-  if (entries.empty()) throw Failure(ExitCode::WrongUsage, fmt::format("--group: no recording of '{}'", group));
+  refuse("'{}': no result{} in it", file, arguments.group ? " of group '" + *arguments.group + "'" : "");
 }
 
 /// Files and folders of recordings are drafted together, so that --speed may be given once for each.
-Source source_of(const SideArguments& arguments, const Notify& notify) {
+Source source_of(const SideArguments& arguments, const DocumentOptions& document) {
   Source source;
   std::vector<std::string> recordings;
   for (const std::string& path : arguments.paths) {
@@ -98,9 +89,12 @@ Source source_of(const SideArguments& arguments, const Notify& notify) {
     }
   }
   if (!recordings.empty()) {
-    const auto draft = draft_of(recordings, read_options_from(arguments.recording), notify);
-    auto entries = entries_of(draft, arguments.recording, notify);
-    if (arguments.group) keep_group(*arguments.group, entries);
+    const auto draft = draft_of(recordings, read_options_from(arguments.recording), document);
+    auto entries = entries_of(draft, arguments.recording, document);
+    if (arguments.group) {
+      std::erase_if(entries, [&](const ManifestEntry& entry) { return entry.group != *arguments.group; });
+      if (entries.empty()) refuse("--group: no recording of '{}'", *arguments.group);
+    }
     source.entries.insert(source.entries.end(), entries.begin(), entries.end());
   }
   return source;
@@ -134,11 +128,9 @@ class Fitting {
     for (const ManifestEntry& entry : source.entries) {
       if (!arguments_.document.quiet) line_.show(fmt::format("fitting recording {} of {}", ++done_, total_));
       slipfit::ComparedRecording one = analysed(entry);
-      slipfit::JsonOptions options;
-      options.id = entry.id;
-      auto compared = slipfit::compared_fit(to_json(one.recording, one.analysis, options), entry.file);
-      if (!compared) throw Failure(ExitCode::BadRecording, compared.error());
-      source.side.fits.push_back(std::move(compared).value());
+      source.side.fits.push_back(
+          value_or_fail(slipfit::compared_fit(to_json(one.recording, one.analysis, {.id = entry.id}), entry.file),
+                        ExitCode::BadRecording));
       if (arguments_.document.has("--report")) kept.push_back(std::move(one));
     }
     return kept;
@@ -160,9 +152,9 @@ std::pair<SideArguments, SideArguments> sides_of(const CompareArguments& argumen
   if (!sides.empty()) a.paths.insert(a.paths.begin(), sides.front());
   if (sides.size() > 1 || (has_two_groups && !sides.empty())) b.paths.insert(b.paths.begin(), sides.back());
   if (a.paths.empty() || b.paths.empty()) {
-    throw Failure(ExitCode::WrongUsage,
-                  "two sides are compared: give A and B, or --a FILE... --b FILE..., or one source with two groups "
-                  "(--group A --group B)");
+    refuse(
+        "two sides are compared: give A and B, or --a FILE... --b FILE..., or one source with two groups "
+        "(--group A --group B)");
   }
   if (!arguments.groups.empty()) a.group = arguments.groups.front();
   if (!arguments.groups.empty()) b.group = arguments.groups.back();
@@ -170,9 +162,25 @@ std::pair<SideArguments, SideArguments> sides_of(const CompareArguments& argumen
     a.recording.speeds = {speeds.front()};
     b.recording.speeds = {speeds.back()};
   } else if (speeds.size() > 2) {
-    throw Failure(ExitCode::WrongUsage, "--speed: give it once for both sides, or twice, for A and for B");
+    refuse("--speed: give it once for both sides, or twice, for A and for B");
   }
   return {a, b};
+}
+
+void add_options(CLI::App& command, CompareArguments& arguments) {
+  add_recording_options(command, arguments.recording);
+  command.remove_option(command.get_option("REC"));
+  command
+      .add_option("SIDES", arguments.sides,
+                  "A and B: each a recording, a folder or manifest of repeats, or a result of fit --json or batch")
+      ->expected(0, 2);
+  command.add_option("--a", arguments.files_a, "Further recordings or results of A");
+  command.add_option("--b", arguments.files_b, "Further recordings or results of B");
+  command.add_option("--group", arguments.groups, "Group of the manifest or results; give it twice, for A and B")
+      ->expected(1, 2)
+      ->allow_extra_args(false);
+  add_document_options(command, arguments.document, "text");
+  add_report_option(command, arguments.document);
 }
 
 void run(const CompareArguments& arguments) {
@@ -180,11 +188,10 @@ void run(const CompareArguments& arguments) {
   for (const SideArguments* const side : {&side_a, &side_b}) {
     for (const std::string& path : side->paths) check_outputs(arguments.document.outputs, path);
   }
-  const Notify notify = notifier(arguments.document);
-  Source a = source_of(side_a, notify);
-  Source b = source_of(side_b, notify);
+  Source a = source_of(side_a, arguments.document);
+  Source b = source_of(side_b, arguments.document);
   slipfit::ComparisonOrigin origin;
-  origin.command_line = arguments.command_line;
+  origin.command_line = arguments.document.command_line;
   {
     Fitting fitting(arguments, a.entries.size() + b.entries.size());
     origin.recordings_a = fitting.fit(a);
@@ -201,22 +208,9 @@ void run(const CompareArguments& arguments) {
 
 }  // namespace
 
-void add_compare_command(CLI::App& program, const std::string& command_line) {
-  CLI::App* const command = program.add_subcommand("compare", "Compares two recordings, groups of repeats, or results");
-  const auto arguments = std::make_shared<CompareArguments>();
-  arguments->command_line = command_line;
-  add_recording_options(*command, arguments->recording);
-  command->remove_option(command->get_option("REC"));
-  command
-      ->add_option("SIDES", arguments->sides,
-                   "A and B: each a recording, a folder or manifest of repeats, or a result of fit --json or batch")
-      ->expected(0, 2);
-  command->add_option("--a", arguments->files_a, "Further recordings or results of A");
-  command->add_option("--b", arguments->files_b, "Further recordings or results of B");
-  command->add_option("--group", arguments->groups, "Group of the manifest or results; give it twice, for A and B")
-      ->expected(1, 2)
-      ->allow_extra_args(false);
-  add_document_options(*command, arguments->document, "text");
-  add_report_option(*command, arguments->document);
-  command->callback([arguments] { run(*arguments); });
+void add_compare_command(CLI::App& program, const std::string& typed_line) {
+  CompareArguments arguments;
+  arguments.document.command_line = typed_line;
+  add_command<CompareArguments>(program, "compare", "Compares two recordings, groups of repeats, or results",
+                                add_options, run, arguments);
 }

@@ -31,10 +31,10 @@ void check_one_group(const FitArguments& arguments, const std::vector<slipfit::M
     if (std::find(groups.begin(), groups.end(), entry.group) == groups.end()) groups.push_back(entry.group);
   }
   if (groups.size() < 2) return;
-  throw Failure(ExitCode::WrongUsage,
-                fmt::format("{}: contains {} groups ('{}', '{}'{}), but a joint fit needs one: choose it with --group, "
-                            "or recordings with --only",
-                            *arguments.sweep, groups.size(), groups[0], groups[1], groups.size() > 2 ? ", ..." : ""));
+  refuse(
+      "{}: contains {} groups ('{}', '{}'{}), but a joint fit needs one: choose it with --group, or recordings with "
+      "--only",
+      *arguments.sweep, groups.size(), groups[0], groups[1], groups.size() > 2 ? ", ..." : "");
 }
 
 /// The manifest says how the recordings of a fit of a sweep were made: only what is not about a recording may be stated
@@ -44,15 +44,12 @@ SweepArguments sweep_arguments(const FitArguments& arguments, const CLI::App& co
                                               "--json",  "--details", "--out",  "--report", "--quiet"};
   for (const CLI::Option* const option : command.get_options()) {
     if (option->count() == 0 || kAllowed.contains(option->get_name())) continue;
-    throw Failure(
-        ExitCode::WrongUsage,
-        option->get_name() + " cannot be combined with --joint: the manifest states how each recording was made");
+    refuse("{} cannot be combined with --joint: the manifest states how each recording was made", option->get_name());
   }
-  const AnalysisArguments& analysis = arguments.analysis;
   const std::string name = arguments.group ? *arguments.group : std::filesystem::path(*arguments.sweep).stem().string();
   auto entries = manifest_entries(*arguments.sweep, arguments.group, arguments.only);
   check_one_group(arguments, entries);
-  return {{name, analysis.document, analysis.command_line}, *arguments.sweep, std::move(entries)};
+  return {name, arguments.analysis.document, *arguments.sweep, std::move(entries)};
 }
 
 /// The strokes or segments of one file as a joint fit.
@@ -80,15 +77,12 @@ SweepArguments sweep_of_files(const FitArguments& arguments, const CLI::App& com
   for (const char* const single :
        {"--cycles", "--curve", "--plots", "--timing", "--mass", "--sensor-bandwidth", "--sensor-resonance"}) {
     if (command.get_option(single)->count() == 0) continue;
-    throw Failure(ExitCode::WrongUsage,
-                  fmt::format("{} applies to one recording, but several are fitted together", single));
+    refuse("{} applies to one recording, but several are fitted together", single);
   }
   const AnalysisArguments& analysis = arguments.analysis;
-  const Notify notify = notifier(analysis.document);
-  const auto draft = draft_of(files, read_options_from(analysis.recording), notify);
-  std::vector<slipfit::ManifestEntry> entries = entries_of(draft, analysis.recording, notify);
-  const std::string name = name_of(entries);
-  return {{name, analysis.document, analysis.command_line}, {}, std::move(entries)};
+  const auto draft = draft_of(files, read_options_from(analysis.recording), analysis.document);
+  std::vector<slipfit::ManifestEntry> entries = entries_of(draft, analysis.recording, analysis.document);
+  return {name_of(entries), analysis.document, {}, std::move(entries)};
 }
 
 /// --joint names a manifest, or the first of several recordings.
@@ -99,7 +93,7 @@ bool is_joint_of_files(const FitArguments& arguments) {
 void fit_each(const FitArguments& arguments, const slipfit::FitOptions& options) {
   run_each(arguments.analysis,
            [&options](const slipfit::Recording& recording) { return slipfit::analyze_and_fit(recording, options); });
-  notifier(arguments.analysis.document)(
+  arguments.analysis.document.notify(
       "each recording was fitted separately; --joint before the files fits them together with one set of parameters");
 }
 
@@ -111,10 +105,9 @@ void run(const FitArguments& arguments, const CLI::App& command) {
   if (is_joint_of_files(arguments)) return run_sweep(sweep_of_files(arguments, command), options);
   if (arguments.sweep) return run_sweep(sweep_arguments(arguments, command), options);
   if (arguments.group || !arguments.only.empty()) {
-    throw Failure(ExitCode::WrongUsage, "--group and --only select recordings of a manifest: give it with --joint");
+    refuse("--group and --only select recordings of a manifest: give it with --joint");
   }
-  if (files.empty())
-    throw Failure(ExitCode::WrongUsage, "REC is required: name a recording, or a manifest with --joint");
+  if (files.empty()) refuse("REC is required: name a recording, or a manifest with --joint");
   if (is_of_pieces(arguments.analysis)) {
     return run_pieces(arguments.analysis, fit_together(options, arguments.analysis.document));
   }
@@ -128,10 +121,10 @@ void run(const FitArguments& arguments, const CLI::App& command) {
 
 }  // namespace
 
-void add_fit_command(CLI::App& program, const std::string& command_line) {
+void add_fit_command(CLI::App& program, const std::string& typed_line) {
   CLI::App* const command = program.add_subcommand("fit", "Analyses recordings and fits the stick-slip model");
   const auto arguments = std::make_shared<FitArguments>();
-  arguments->analysis.command_line = command_line;
+  arguments->analysis.document.command_line = typed_line;
   add_analysis_options(*command, arguments->analysis);
   command->get_option("REC")->required(false)->description(
       "Recordings; several are fitted separately (--joint: together)");

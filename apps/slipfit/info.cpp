@@ -1,4 +1,3 @@
-#include <memory>
 #include <string>
 
 #include "commands.hpp"
@@ -14,6 +13,14 @@ struct InfoArguments {
   RecordingArguments recording;
   DocumentOptions document;
 };
+
+void add_options(CLI::App& command, InfoArguments& arguments) {
+  command.add_option("FILE", arguments.recording.files, "Files; several are described one after another")->required();
+  add_options_where(command, arguments.recording, [](const slipfit::RecordingOption& option) {
+    return option.of == slipfit::RecordingOption::Of::Reading;
+  });
+  add_document_options(command, arguments.document, "text");
+}
 
 void run(const InfoArguments& arguments) {
   const std::vector<std::string>& files = arguments.recording.files;
@@ -34,14 +41,7 @@ void run(const InfoArguments& arguments) {
 
 }  // namespace
 
-void add_info_command(CLI::App& program) {
-  CLI::App* const command =
-      program.add_subcommand("info", "Lists the columns, units, clock and steps of a file and what would be read");
-  const auto arguments = std::make_shared<InfoArguments>();
-  command->add_option("FILE", arguments->recording.files, "Files; several are described one after another")->required();
-  add_options_where(*command, arguments->recording, [](const slipfit::RecordingOption& option) {
-    return option.of == slipfit::RecordingOption::Of::Reading;
-  });
-  add_document_options(*command, arguments->document, "text");
-  command->callback([arguments] { run(*arguments); });
+void add_info_command(CLI::App& program, const std::string& /*typed_line*/) {
+  add_command<InfoArguments>(
+      program, "info", "Lists the columns, units, clock and steps of a file and what would be read", add_options, run);
 }

@@ -1,7 +1,6 @@
 #include "model_options.hpp"
 
 #include <cmath>
-#include <utility>
 
 #include "failure.hpp"
 #include "quantities.hpp"
@@ -12,24 +11,16 @@ namespace {
 
 double natural_frequency_rad_per_s(const ModelArguments& arguments, double stiffness_N_per_m) {
   if (arguments.mass_kg.has_value() == arguments.natural_frequency_rad_per_s.has_value()) {
-    throw Failure(ExitCode::WrongUsage, "give either --mass (kg) or --natural-frequency (rad/s)");
+    refuse("give either --mass (kg) or --natural-frequency (rad/s)");
   }
   return arguments.mass_kg ? std::sqrt(stiffness_N_per_m / *arguments.mass_kg) : *arguments.natural_frequency_rad_per_s;
-}
-
-template <class T>
-T value_or_refuse(slipfit::Result<T> result) {
-  if (!result) throw Failure(ExitCode::WrongUsage, result.error());
-  return std::move(result).value();
 }
 
 /// F_k(v), where it is given in place of a constant.
 std::optional<slipfit::VelocityFriction> velocity_friction(const ModelArguments& arguments, double static_N) {
   if (!arguments.f0_N && !arguments.f1_N && !arguments.alpha_s_per_m) return std::nullopt;
-  if (arguments.kinetic_friction_N) {
-    throw Failure(ExitCode::WrongUsage, "give either --kinetic-friction or --f0, --f1 and --alpha, not both");
-  }
-  return value_or_refuse(slipfit::VelocityFriction::create(
+  if (arguments.kinetic_friction_N) refuse("give either --kinetic-friction or --f0, --f1 and --alpha, not both");
+  return value_or_fail(slipfit::VelocityFriction::create(
       static_N, required(arguments.f0_N, "--f0", "the constant part of F_k (N)"),
       required(arguments.f1_N, "--f1", "the part of F_k that depends on the speed (N)"),
       required(arguments.alpha_s_per_m, "--alpha", "its rate of change with speed (s/m)")));
@@ -71,7 +62,7 @@ Model model_from(const ModelArguments& arguments) {
       by_speed ? by_speed->onset_N()
                : required(arguments.kinetic_friction_N, "--kinetic-friction", "F_k (N), or --f0, --f1 and --alpha");
   const double omega_rad_per_s = natural_frequency_rad_per_s(arguments, stiffness_N_per_m);
-  return {value_or_refuse(
-              slipfit::Slider::create(stiffness_N_per_m, omega_rad_per_s, arguments.damping_ratio.value_or(0.0))),
-          value_or_refuse(slipfit::Friction::create(static_N, kinetic_N)), by_speed};
+  return {
+      value_or_fail(slipfit::Slider::create(stiffness_N_per_m, omega_rad_per_s, arguments.damping_ratio.value_or(0.0))),
+      value_or_fail(slipfit::Friction::create(static_N, kinetic_N)), by_speed};
 }

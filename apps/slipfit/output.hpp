@@ -11,29 +11,33 @@ struct OutputFile {
   std::string file;
 };
 
-/// The options of every command that writes a document.
+/// The options of every command that writes a document or files.
 struct DocumentOptions {
   bool json = false;
   bool quiet = false;
   bool details = false;             ///< prints all results as text instead of the summary
   std::vector<OutputFile> outputs;  ///< that were named; --out: of the document
+  std::string command_line;         ///< as typed, for reports
 
+  /// Returns whether the output was named.
   [[nodiscard]] bool has(const std::string& option) const;
+  /// Says a message, but with --quiet.
+  void notify(const std::string& message) const;
 };
 
-/// Adds the options; `text` is the word for the document without --json in the help.
+/// --json, --out and --quiet; `text` is the word for the document without --json in the help.
 void add_document_options(CLI::App& command, DocumentOptions& options, const std::string& text);
-
+/// --quiet
+void add_quiet_option(CLI::App& command, DocumentOptions& options);
 /// An option that names a further file.
 void add_output_option(CLI::App& command, DocumentOptions& options, const std::string& option, const std::string& help);
+/// --report
+void add_report_option(CLI::App& command, DocumentOptions& options);
 
 /// Throws Failure(WrongUsage): pages are HTML, whatever the name says.
 [[noreturn]] void refuse_report_name(const std::string& file);
 /// Refuses a name with the ending of another kind of file ("x.pdf").
 void check_report_name(const std::string& file);
-
-/// --report
-void add_report_option(CLI::App& command, DocumentOptions& options);
 
 /// Checks outputs before any work: throws Failure(WrongUsage) if an output is the input (empty without one), is named
 /// twice, is a folder, or has no folder.
@@ -53,11 +57,10 @@ void write_results(const DocumentOptions& options,
 
 void write_standard_output(const std::string& content);
 
-/// Says messages, but with --quiet.
-std::function<void(const std::string&)> notifier(const DocumentOptions& options);
-
 /// A message to standard error, "slipfit: ...", on one line.
 void say(const std::string& message);
 
 /// A command as a shell takes it: `slipfit` and the words behind the first, quoted where they must be.
 std::string shell_line(const std::vector<std::string>& words);
+/// The command that drafts a manifest of files and folders.
+std::string manifest_command(const std::vector<std::string>& paths);

@@ -1,7 +1,6 @@
 #include "quantities.hpp"
 
 #include <algorithm>
-#include <utility>
 
 #include "slipfit/fit/parameter.hpp"
 
@@ -9,13 +8,9 @@ using slipfit::Dimension;
 
 namespace {
 
-[[noreturn]] void refuse(const std::string& option, const std::string& message) {
-  throw Failure(ExitCode::WrongUsage, fmt::format("{}: {}", option, message));
-}
-
 double within(double value, Limits limits, const std::string& option, const std::string& text) {
-  if (limits == Limits::AboveZero && !(value > 0.0)) refuse(option, fmt::format("'{}' is not above zero", text));
-  if (limits == Limits::NotNegative && !(value >= 0.0)) refuse(option, fmt::format("'{}' is below zero", text));
+  if (limits == Limits::AboveZero && !(value > 0.0)) refuse("{}: '{}' is not above zero", option, text);
+  if (limits == Limits::NotNegative && !(value >= 0.0)) refuse("{}: '{}' is below zero", option, text);
   return value;
 }
 
@@ -23,14 +18,14 @@ double within(double value, Limits limits, const std::string& option, const std:
 
 double quantity(const std::string& option, const std::string& text, Dimension dimension, Limits limits) {
   const slipfit::Result<double> parsed = slipfit::parse_quantity(text, dimension);
-  if (!parsed) refuse(option, parsed.error().message);
+  if (!parsed) refuse("{}: {}", option, parsed.error().message);
   return within(parsed.value(), limits, option, text);
 }
 
 double plain_number(const std::string& option, const std::string& text, const std::string& unit, Limits limits) {
   const auto value = slipfit::parse_quantity(text, Dimension::Dimensionless);
   if (!value || !slipfit::unit_in(text).empty()) {
-    refuse(option, fmt::format("bad number '{}', expected a plain number ({})", text, unit));
+    refuse("{}: bad number '{}', expected a plain number ({})", option, text, unit);
   }
   return within(value.value(), limits, option, text);
 }
@@ -51,7 +46,5 @@ slipfit::FitOptions fit_options_from(const std::string& tier, const std::vector<
     const std::size_t end = std::min(text.find('='), text.size());
     with_keys.push_back(key_of_parameter(text.substr(0, end)) + text.substr(end));
   }
-  auto options = slipfit::parse_fit_options(tier, with_keys, kind);
-  if (!options) throw Failure(ExitCode::WrongUsage, options.error().message);
-  return std::move(options).value();
+  return value_or_fail(slipfit::parse_fit_options(tier, with_keys, kind));
 }

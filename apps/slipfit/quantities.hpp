@@ -49,7 +49,7 @@ CLI::Option* add_number(CLI::App& command, const std::string& option, Target& ta
 /// The value, or Failure(WrongUsage) that the option is missing; `meaning` says what to give.
 template <class Value>
 const Value& required(const std::optional<Value>& value, const std::string& option, const std::string& meaning) {
-  if (!value) throw Failure(ExitCode::WrongUsage, fmt::format("{} is missing: give {}", option, meaning));
+  if (!value) refuse("{} is missing: give {}", option, meaning);
   return *value;
 }
 

@@ -15,19 +15,17 @@ using slipfit::ManifestEntry;
 
 std::vector<ManifestEntry> manifest_entries(const std::string& manifest, const std::optional<std::string>& group,
                                             const std::vector<std::string>& only) {
-  auto entries = slipfit::read_manifest_group(manifest, group);
-  if (!entries) throw Failure(ExitCode::WrongUsage, entries.error());
+  const std::vector<ManifestEntry> entries = value_or_fail(slipfit::read_manifest_group(manifest, group));
+  if (only.empty()) return entries;
   std::vector<ManifestEntry> chosen;
   for (const std::string& id : only) {
-    const auto entry = std::find_if(entries.value().begin(), entries.value().end(),
-                                    [&id](const ManifestEntry& candidate) { return candidate.id == id; });
-    if (entry == entries.value().end()) {
-      throw Failure(ExitCode::WrongUsage, fmt::format("{}: no recording '{}'{}, named by --only", manifest, id,
-                                                      group ? " in group '" + *group + "'" : ""));
+    const auto entry = std::ranges::find(entries, id, &ManifestEntry::id);
+    if (entry == entries.end()) {
+      refuse("{}: no recording '{}'{}, named by --only", manifest, id, group ? " in group '" + *group + "'" : "");
     }
     chosen.push_back(*entry);
   }
-  return only.empty() ? std::move(entries).value() : chosen;
+  return chosen;
 }
 
 namespace {
@@ -50,23 +48,20 @@ slipfit::SweepAnalysis analyze_with_progress(const std::vector<slipfit::SweepEnt
 }
 
 void run_sweep(const SweepArguments& arguments, const slipfit::FitOptions& options) {
-  const std::vector<OutputFile>& outputs = arguments.document.options.outputs;
+  const std::vector<OutputFile>& outputs = arguments.document.outputs;
   check_outputs(outputs, arguments.manifest);
   for (const ManifestEntry& entry : arguments.entries) check_outputs(outputs, entry.file.string());
   const std::vector<slipfit::SweepEntry> entries = read_recordings(arguments.entries);
-  write_sweep(arguments.document, entries, analyze_with_progress(entries, options, arguments.document.options));
+  write_sweep(arguments.name, arguments.document, entries, analyze_with_progress(entries, options, arguments.document));
 }
 
-void write_sweep(const SweepDocument& document, const std::vector<slipfit::SweepEntry>& entries,
-                 const slipfit::SweepAnalysis& sweep) {
-  slipfit::JsonOptions layout;
-  layout.id = document.name;
-  write_results(document.options, [&](const std::string& option) {
+void write_sweep(const std::string& name, const DocumentOptions& document,
+                 const std::vector<slipfit::SweepEntry>& entries, const slipfit::SweepAnalysis& sweep) {
+  write_results(document, [&](const std::string& option) {
     if (option == "--report") {
-      return to_html(entries, sweep, predict_around(entries, sweep), {layout.id, document.command_line});
+      return to_html(entries, sweep, predict_around(entries, sweep), {name, document.command_line});
     }
-    if (document.options.json) return slipfit::to_json(entries, sweep, layout) + "\n";
-    return document.options.details ? slipfit::to_text(entries, sweep, layout.id)
-                                    : slipfit::to_summary(entries, sweep, layout.id);
+    if (document.json) return slipfit::to_json(entries, sweep, {.id = name}) + "\n";
+    return document.details ? slipfit::to_text(entries, sweep, name) : slipfit::to_summary(entries, sweep, name);
   });
 }

@@ -9,16 +9,10 @@
 #include "slipfit/io/manifest_entry.hpp"
 #include "slipfit/sweep.hpp"
 
-/// The documents to write for several recordings, and their files.
-struct SweepDocument {
-  std::string name;  ///< the document's id
-  DocumentOptions options;
-  std::string command_line;  ///< as typed, for the report
-};
-
 /// A joint fit: one parameter set for several recordings.
 struct SweepArguments {
-  SweepDocument document;
+  std::string name;  ///< the document's id
+  DocumentOptions document;
   std::string manifest;  ///< empty: none, the recordings were named one by one
   std::vector<slipfit::ManifestEntry> entries;
 };
@@ -27,9 +21,9 @@ struct SweepArguments {
 slipfit::SweepAnalysis analyze_with_progress(const std::vector<slipfit::SweepEntry>& entries,
                                              slipfit::FitOptions options, const DocumentOptions& document);
 
-/// Throws Failure.
-void write_sweep(const SweepDocument& document, const std::vector<slipfit::SweepEntry>& entries,
-                 const slipfit::SweepAnalysis& sweep);
+/// Writes the documents of a sweep, whose id is `name`, and their files. Throws Failure.
+void write_sweep(const std::string& name, const DocumentOptions& document,
+                 const std::vector<slipfit::SweepEntry>& entries, const slipfit::SweepAnalysis& sweep);
 
 /// Returns the recordings of a manifest, of its group, or only these ids. Throws Failure(WrongUsage).
 std::vector<slipfit::ManifestEntry> manifest_entries(const std::string& manifest,
