@@ -42,6 +42,22 @@ bool is_manifest(const std::string& file) {
   return slipfit::ManifestReader::open(file).ok();
 }
 
+std::vector<slipfit::ManifestEntry> manifest_entries(const std::string& manifest,
+                                                     const std::optional<std::string>& group,
+                                                     const std::vector<std::string>& only) {
+  const std::vector<slipfit::ManifestEntry> entries = value_or_fail(slipfit::read_manifest_group(manifest, group));
+  if (only.empty()) return entries;
+  std::vector<slipfit::ManifestEntry> chosen;
+  for (const std::string& id : only) {
+    const auto entry = std::ranges::find(entries, id, &slipfit::ManifestEntry::id);
+    if (entry == entries.end()) {
+      refuse("{}: no recording '{}'{}, named by --only", manifest, id, group ? " in group '" + *group + "'" : "");
+    }
+    chosen.push_back(*entry);
+  }
+  return chosen;
+}
+
 void notify_of_replaced(const slipfit::Conditions& stated, const slipfit::DraftEntry& drafted,
                         const DocumentOptions& document) {
   const std::string file = drafted.file.string();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,11 @@
 
 /// Returns true if the header line of a file is that of a manifest.
 bool is_manifest(const std::string& file);
+
+/// Returns the recordings of a manifest, of its group, or only these ids. Throws Failure(WrongUsage).
+std::vector<slipfit::ManifestEntry> manifest_entries(const std::string& manifest,
+                                                     const std::optional<std::string>& group,
+                                                     const std::vector<std::string>& only);
 
 /// Throws Failure(BadRecording) where the draft has no recording.
 void check_found(const slipfit::ManifestDraft& draft);

@@ -4,7 +4,6 @@
 #include "failure.hpp"
 #include "output.hpp"
 #include "recording_options.hpp"
-#include "several_documents.hpp"
 #include "slipfit/report/info.hpp"
 
 namespace {
@@ -26,17 +25,13 @@ void run(const InfoArguments& arguments) {
   const std::vector<std::string>& files = arguments.recording.files;
   for (const std::string& file : files) check_outputs(arguments.document.outputs, file);
   const slipfit::ReadOptions options = read_options_from(arguments.recording);
-  SeveralDocuments documents(files.size(), arguments.document.json);
-  for (const std::string& file : files) {
-    const auto inspection = slipfit::inspect(file, options);
-    if (!inspection) {
-      documents.add_failure(ExitCode::BadRecording, inspection.error());
-      continue;
-    }
-    documents.add(arguments.document.json ? to_json(inspection.value(), file) + "\n"
-                                          : to_text(inspection.value(), file));
-  }
-  documents.write(arguments.document);
+  const auto document_of = [&](std::size_t i) -> slipfit::Result<std::string> {
+    const auto inspection = slipfit::inspect(files[i], options);
+    if (!inspection) return inspection.error();
+    return arguments.document.json ? to_json(inspection.value(), files[i]) + "\n"
+                                   : to_text(inspection.value(), files[i]);
+  };
+  write_each(arguments.document, files.size(), document_of, [](const std::string&) { return ExitCode::BadRecording; });
 }
 
 }  // namespace

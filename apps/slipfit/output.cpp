@@ -169,6 +169,28 @@ void write_results(const DocumentOptions& options,
   if (!options.has("--out")) write_standard_output(text_of("--out"));
 }
 
+void write_each(const DocumentOptions& options, std::size_t count,
+                const std::function<slipfit::Result<std::string>(std::size_t)>& document_of,
+                ExitCode (*exit_code_for)(const std::string& code)) {
+  const bool is_array = options.json && count > 1;
+  std::string content;
+  std::size_t written = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const slipfit::Result<std::string> document = document_of(i);
+    if (!document) {
+      if (count == 1) throw Failure(exit_code_for(document.error().code), document.error());
+      say(document.error().message);
+      continue;
+    }
+    if (written++ > 0) content += options.json ? ",\n" : "\n";
+    content += is_array ? document.value().substr(0, document.value().find_last_not_of('\n') + 1) : document.value();
+  }
+  if (written == 0) throw Failure(ExitCode::BadRecording, fmt::format("none of {} recordings can be read", count));
+  write_results(options, [&](const std::string&) { return is_array ? "[" + content + "]\n" : content; });
+  if (written == count) return;
+  throw Failure(ExitCode::RecordingsFailed, fmt::format("{} of {} recordings failed", count - written, count));
+}
+
 void write_standard_output(const std::string& content) {
   const bool written = std::fwrite(content.data(), 1, content.size(), stdout) == content.size();
   if (!written || std::fflush(stdout) != 0) {

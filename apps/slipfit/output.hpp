@@ -1,9 +1,12 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <cstddef>
 #include <functional>
 #include <string>
 #include <vector>
+
+#include "failure.hpp"
 
 /// A file that an option names, and the option for messages.
 struct OutputFile {
@@ -54,6 +57,14 @@ void write_file(const OutputFile& output, const std::string& content);
 /// Writes each file and says so; the document, which is the content of --out, goes to standard output without --out.
 void write_results(const DocumentOptions& options,
                    const std::function<std::string(const std::string& option)>& content_of);
+
+/// Writes the documents of one recording or several, each with its line end: one stays as it is; several are texts one
+/// below the other, or one JSON array. An error of the only one is thrown with the exit code for its code; others are
+/// said at once. Throws Failure(RecordingsFailed) at the end where recordings failed, Failure(BadRecording) where all
+/// did.
+void write_each(const DocumentOptions& options, std::size_t count,
+                const std::function<slipfit::Result<std::string>(std::size_t)>& document_of,
+                ExitCode (*exit_code_for)(const std::string& code));
 
 void write_standard_output(const std::string& content);
 

@@ -6,28 +6,17 @@
 
 using slipfit::Dimension;
 
-namespace {
-
-double within(double value, Limits limits, const std::string& option, const std::string& text) {
+double quantity(const std::string& option, const std::string& text, Kind kind, Limits limits) {
+  const Dimension* const dimension = std::get_if<Dimension>(&kind);
+  const auto parsed = slipfit::parse_quantity(text, dimension != nullptr ? *dimension : Dimension::Dimensionless);
+  if (dimension == nullptr && (!parsed || !slipfit::unit_in(text).empty())) {
+    refuse("{}: bad number '{}', expected a plain number ({})", option, text, std::get<const char*>(kind));
+  }
+  if (!parsed) refuse("{}: {}", option, parsed.error().message);
+  const double value = parsed.value();
   if (limits == Limits::AboveZero && !(value > 0.0)) refuse("{}: '{}' is not above zero", option, text);
   if (limits == Limits::NotNegative && !(value >= 0.0)) refuse("{}: '{}' is below zero", option, text);
   return value;
-}
-
-}  // namespace
-
-double quantity(const std::string& option, const std::string& text, Dimension dimension, Limits limits) {
-  const slipfit::Result<double> parsed = slipfit::parse_quantity(text, dimension);
-  if (!parsed) refuse("{}: {}", option, parsed.error().message);
-  return within(parsed.value(), limits, option, text);
-}
-
-double plain_number(const std::string& option, const std::string& text, const std::string& unit, Limits limits) {
-  const auto value = slipfit::parse_quantity(text, Dimension::Dimensionless);
-  if (!value || !slipfit::unit_in(text).empty()) {
-    refuse("{}: bad number '{}', expected a plain number ({})", option, text, unit);
-  }
-  return within(value.value(), limits, option, text);
 }
 
 std::string key_of_parameter(const std::string& text) {

@@ -43,7 +43,7 @@ void add_options(CLI::App& command, SimulateArguments& arguments) {
       ->default_str("0");
   add_quantity(command, "--offset", options.offset_N, Dimension::Force, None, "Offset added to the force (N)")
       ->default_str("0");
-  add_number(command, "--drift", options.drift_N_per_s, "N/s", None, "Drift added to the force (N/s)")
+  add_quantity(command, "--drift", options.drift_N_per_s, "N/s", None, "Drift added to the force (N/s)")
       ->default_str("0");
   add_quantity(command, "--hum", options.hum_N, Dimension::Force, NotNegative, "Amplitude of mains hum (N)")
       ->default_str("0");
@@ -92,9 +92,10 @@ void run(const SimulateArguments& arguments) {
       model.velocity_friction
           ? value_or_fail(slipfit::simulate(model.slider, *model.velocity_friction, speed_m_per_s, options))
           : slipfit::simulate(model.slider, model.friction, speed_m_per_s, options);
-  write_results(arguments.document, [&](const std::string&) {
-    return slipfit::trace_to_csv(trace, comment_for(model, speed_m_per_s, options));
-  });
+  const std::string csv = slipfit::trace_to_csv(trace, comment_for(model, speed_m_per_s, options));
+  if (arguments.document.outputs.empty()) return write_standard_output(csv);
+  write_file(arguments.document.outputs.back(), csv);
+  arguments.document.notify(fmt::format("wrote '{}'", arguments.document.outputs.back().file));
 }
 
 }  // namespace

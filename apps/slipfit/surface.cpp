@@ -28,7 +28,7 @@ void run_surface(const SurfaceCommand& arguments) {
 /// "x", "y", or degrees from the x axis.
 double direction(const std::string& text) {
   if (text == "x") return 0.0;
-  const double degrees = text == "y" ? 90.0 : plain_number("--along", text, "degrees from the x axis (or x, y)");
+  const double degrees = text == "y" ? 90.0 : quantity("--along", text, "degrees from the x axis (or x, y)");
   return degrees * std::numbers::pi / 180.0;
 }
 
