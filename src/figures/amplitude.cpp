@@ -88,7 +88,7 @@ std::vector<FigureFile> amplitude_against_speed() {
       {"figure 4 of the paper: undamped, eq. (23); mass 0.5 gram, F_s - F_k = 5 N",
        "assumed: the values of X_s = (F_s - F_k)/k and the range of speed, which the paper's text does not give"},
       {"assumed_X_s_m", "stiffness_N_per_m", "speed_m_per_s", "lambda", "displacement_m"});
-  chart::Panel panel = panel_of({kSpeedLabel, 0.0, kFastest_m_per_s}, {"stick-slip amplitude Δx  [mm]", 0.0, 45.0}, {});
+  chart::Panel panel{.x = {kSpeedLabel, 0.0, kFastest_m_per_s}, .y = {"stick-slip amplitude Δx  [mm]", 0.0, 45.0}};
   for (std::size_t i = kSpringDrops_m.size(); i-- > 0;) {  // the uppermost curve first in the legend
     const double drop_m = kSpringDrops_m.at(i);
     const Slider slider = slider_with(drop_m, 0.0);
@@ -118,8 +118,9 @@ std::vector<FigureFile> damped_amplitude_against_speed() {
       {"figure 8 of the paper: the speeds above which there is no stick-slip (exact) and no root of eq. (36)", assumed},
       {"assumed_damping_ratio", "critical_speed_m_per_s", "largest_speed_of_eq_36_m_per_s"});
   Table ratios({}, {"damping_ratio", "speed_m_per_s", "exact", "paper", "corrected"});
-  chart::Panel upper = panel_of({"", 0.0, kFastest_m_per_s}, {"amplitude Δx  [mm]", 0.0, 20.0}, {}, 300.0);
-  chart::Panel lower = panel_of({kSpeedLabel, 0.0, kFastest_m_per_s}, {"Δx / Δx(ζ = 0)  [-]", 0.8, 1.1}, {}, 200.0);
+  chart::Panel upper{.x = {"", 0.0, kFastest_m_per_s}, .y = {"amplitude Δx  [mm]", 0.0, 20.0}, .height_px = 300.0};
+  chart::Panel lower{
+      .x = {kSpeedLabel, 0.0, kFastest_m_per_s}, .y = {"Δx / Δx(ζ = 0)  [-]", 0.8, 1.1}, .height_px = 200.0};
   for (std::size_t i = 0; i < kDampingRatios.size(); ++i) {
     const double zeta = kDampingRatios.at(i);
     const Colour colour = kColours.at(i);

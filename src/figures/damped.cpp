@@ -91,9 +91,10 @@ std::vector<FigureFile> damped_sticking_degree() {
     table.add({0.0, lambda, scaled_motion(lambda, 0.0).cycle->sticking_degree,
                scaled_paper_cycle(lambda, 0.0).value().sticking_degree});
   }
-  chart::Panel panel =
-      panel_of({"stick-slip parameter λ  [-]", 0.0, kLargestDampedLambda}, {"sticking degree  [-]", 0.0, 0.8},
-               {table.line({"ζ = 0, eq. (22)", Colour::Black, Stroke::Solid, {{0.0, 0.0}}}, 1, 2)}, 300.0);
+  chart::Panel panel{.x = {"stick-slip parameter λ  [-]", 0.0, kLargestDampedLambda},
+                     .y = {"sticking degree  [-]", 0.0, 0.8},
+                     .height_px = 300.0,
+                     .lines = {table.line({"ζ = 0, eq. (22)", Colour::Black, Stroke::Solid, {{0.0, 0.0}}}, 1, 2)}};
   for (std::size_t i = 0; i < kPrintedLimits.size(); ++i) {
     add_damped_curves(kPrintedLimits.at(i), kDampedColours.at(i), table, limits, panel);
   }

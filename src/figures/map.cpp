@@ -44,13 +44,13 @@ std::vector<Point> right_of(const chart::Line& limit) {
 chart::Panel map_of(const Table& limits) {
   const chart::Line exact_limit = limits.line({"exact limit of stick-slip", Colour::Black, Stroke::Solid, {}}, 1, 0);
   const chart::Line first_root = limits.line({"limit of eq. (36)", Colour::Purple, Stroke::DashDotted, {}}, 4, 0);
-  chart::Panel panel =
-      panel_of({"stick-slip parameter λ = ωₙ (Fₛ − Fₖ) / (k V)  [-]", kLeft, kRight, kLog},
-               {"damping ratio ζ  [-]", kBottom, kTop, kLog},
-               {first_root,
+  chart::Panel panel{
+      .x = {"stick-slip parameter λ = ωₙ (Fₛ − Fₖ) / (k V)  [-]", kLeft, kRight, kLog},
+      .y = {"damping ratio ζ  [-]", kBottom, kTop, kLog},
+      .height_px = 420.0,
+      .lines = {first_root,
                 {"the paper's limit, ζ ≈ λ (eq. 39)", Colour::Vermillion, Stroke::Dashed, {{kLeft, kLeft}, {1.0, 1.0}}},
-                exact_limit},
-               420.0);
+                exact_limit}};
   panel.areas = {{"", Colour::SkyBlue, Fill::Plain, right_of(exact_limit)},
                  {"", Colour::Grey, Fill::Plain, {{kLeft, 1}, {kLeft, kTop}, {kRight, kTop}, {kRight, 1}}},
                  {"left of it: eq. (36) has no solution", Colour::Purple, Fill::Hatched, left_of(first_root)}};

@@ -46,15 +46,6 @@ chart::Line Table::line(chart::Line line, std::size_t x, std::size_t y, std::opt
   return line;
 }
 
-chart::Panel panel_of(chart::Axis x, chart::Axis y, std::vector<chart::Line> lines, double height_px) {
-  chart::Panel panel;
-  panel.x = std::move(x);
-  panel.y = std::move(y);
-  panel.height_px = height_px;
-  panel.lines = std::move(lines);
-  return panel;
-}
-
 std::vector<FigureFile> files_of(const std::string& name, const Table& table, const chart::Chart& chart) {
   return {{name + ".csv", table.csv()}, {name + ".svg", to_svg(chart)}};
 }

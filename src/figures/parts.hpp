@@ -45,9 +45,6 @@ class Table {
   std::vector<std::vector<double>> rows_;
 };
 
-/// A panel with lines alone.
-chart::Panel panel_of(chart::Axis x, chart::Axis y, std::vector<chart::Line> lines, double height_px = 330.0);
-
 /// The table NAME.csv and the picture NAME.svg.
 std::vector<FigureFile> files_of(const std::string& name, const Table& table, const chart::Chart& chart);
 

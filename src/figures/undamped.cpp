@@ -34,11 +34,12 @@ std::vector<FigureFile> slip_and_stick_times() {
     const LimitCycle cycle = cycle_at(lambda);
     table.add({lambda, cycle.slip_s, cycle.stick_s, cycle.period_s});
   }
-  const chart::Panel panel =
-      panel_of({kLambdaLabel, 0.0, kLargestLambda}, {"time × natural frequency  [rad]", 0.0, 25.0},
-               {table.line({"period, slip + stick", Colour::Black, Stroke::DashDotted, {}}, 0, 3),
+  const chart::Panel panel{
+      .x = {kLambdaLabel, 0.0, kLargestLambda},
+      .y = {"time × natural frequency  [rad]", 0.0, 25.0},
+      .lines = {table.line({"period, slip + stick", Colour::Black, Stroke::DashDotted, {}}, 0, 3),
                 table.line({"stick, 2λ, eq. (21)", Colour::Vermillion, Stroke::Solid, {}}, 0, 2),
-                table.line({"slip, 2(π − atan λ), eq. (20)", Colour::Blue, Stroke::Solid, {}}, 0, 1)});
+                table.line({"slip, 2(π − atan λ), eq. (20)", Colour::Blue, Stroke::Solid, {}}, 0, 1)}};
   return files_of("figure_2", table, {"Figure 2: slip time, stick time and period, undamped", {kRemark}, {panel}});
 }
 
@@ -49,12 +50,15 @@ std::vector<FigureFile> sticking_degree_and_amplitude() {
     const LimitCycle cycle = cycle_at(lambda);
     table.add({lambda, cycle.sticking_degree, cycle.periodic_displacement_m});
   }
-  const chart::Panel upper =
-      panel_of({"", 0.0, kLargestLambda}, {"sticking degree  [-]", 0.0, 1.0},
-               {table.line({"sticking degree, eq. (22)", Colour::Blue, Stroke::Solid, {}}, 0, 1)}, 210.0);
-  const chart::Panel lower =
-      panel_of({kLambdaLabel, 0.0, kLargestLambda}, {"ξ = Δx ωₙ / V  [-]", 0.0, 25.0},
-               {table.line({"displacement ξ, eq. (24)", Colour::Vermillion, Stroke::Solid, {}}, 0, 2)}, 210.0);
+  const chart::Panel upper{.x = {"", 0.0, kLargestLambda},
+                           .y = {"sticking degree  [-]", 0.0, 1.0},
+                           .height_px = 210.0,
+                           .lines = {table.line({"sticking degree, eq. (22)", Colour::Blue, Stroke::Solid, {}}, 0, 1)}};
+  const chart::Panel lower{
+      .x = {kLambdaLabel, 0.0, kLargestLambda},
+      .y = {"ξ = Δx ωₙ / V  [-]", 0.0, 25.0},
+      .height_px = 210.0,
+      .lines = {table.line({"displacement ξ, eq. (24)", Colour::Vermillion, Stroke::Solid, {}}, 0, 2)}};
   return files_of("figure_3", table,
                   {"Figure 3: sticking degree and normalized displacement, undamped", {kRemark}, {upper, lower}});
 }

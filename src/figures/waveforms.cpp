@@ -53,8 +53,7 @@ std::vector<FigureFile> velocity_ratio() {
   Table table({"figure 5 of the paper: undamped, eq. (25) with the phase atan(lambda) - pi; one period from slip onset",
                "assumed: the values of lambda, which the paper's text does not give"},
               {"assumed_lambda", "tau_rad", "velocity_ratio"});
-  chart::Panel panel =
-      panel_of({kTimeLabel, 0.0, 14.0}, {"velocity ratio v* = (sliding speed) / V  [-]", 0.0, 6.5}, {});
+  chart::Panel panel{.x = {kTimeLabel, 0.0, 14.0}, .y = {"velocity ratio v* = (sliding speed) / V  [-]", 0.0, 6.5}};
   for (std::size_t i = 0; i < kLambdas.size(); ++i) {
     const double lambda = kLambdas.at(i);
     const Colour colour = kWaveColours.at(i);
@@ -79,7 +78,7 @@ std::vector<FigureFile> spring_force() {
                "assumed: friction_ratio 1.25, 1.5 and 2; the paper's text gives 2.5 only"},
               {"assumed_friction_ratio", "tau_rad", "normalized_spring_force"});
   const model::Slip slip = model::solve_slip(kForceLambda, 0.0);
-  chart::Panel panel = panel_of({kTimeLabel, 0.0, 17.0}, {"spring force Fₑ* = Fₑ / (Fₛ − Fₖ)  [-]", -1.0, 8.0}, {});
+  chart::Panel panel{.x = {kTimeLabel, 0.0, 17.0}, .y = {"spring force Fₑ* = Fₑ / (Fₛ − Fₖ)  [-]", -1.0, 8.0}};
   for (std::size_t i = 0; i < kFrictionRatios.size(); ++i) {
     const double ratio = kFrictionRatios.at(i);
     for (const double tau : times_of(slip, 2)) {

@@ -104,6 +104,9 @@ std::string unbroken(const std::string& quantity);
 /// A line of this width around an area of a page.
 constexpr double kEdge_px = 0.8;
 
+/// A dashed line through a panel, whose axes are complete, from the bottom to the top.
+chart::Line line_up(const chart::Panel& panel, const std::string& name, double x, chart::Colour colour);
+
 /// A plain rectangle between two corners, with an edge.
 chart::Area rectangle(std::string name, chart::Colour colour, chart::Point low, chart::Point high);
 
@@ -111,6 +114,7 @@ chart::Area rectangle(std::string name, chart::Colour colour, chart::Point low, 
 class Span {
  public:
   void add(double value);
+  void add(const std::vector<chart::Point>& points, double chart::Point::*coordinate = &chart::Point::y);
   [[nodiscard]] bool empty() const { return !(low_ <= high_); }
   [[nodiscard]] double low() const { return low_; }
   [[nodiscard]] double high() const { return high_; }
@@ -126,6 +130,14 @@ class Span {
   double low_ = 1.0;
   double high_ = 0.0;
 };
+
+/// Start and end of a slip, by the fit where it has it, else by the turning points.
+inline double slip_begin_s(const Cycle& cycle) {
+  return cycle.onset_s.value_or(cycle.peak_s);
+}
+inline double slip_end_s(const Cycle& cycle) {
+  return cycle.end_s.value_or(cycle.trough_s);
+}
 
 SampleRange samples_between(const Recording& recording, double begin_s, double end_s);
 

@@ -27,13 +27,9 @@ std::vector<Point> over_time(const Source& source, SampleRange range, At at) {
 /// A panel over the time of a part of the recording, as high as its first line.
 Panel time_panel(const Source& source, SampleRange range, const std::string& label, std::vector<chart::Line> lines) {
   const std::span<const double> time_s = range.of(source.recording.time_s());
-  Panel panel;
-  panel.x = {"time [s]", time_s.front(), time_s.back()};
   Span span;
-  for (const Point& point : lines.front().points) span.add(point.y);
-  panel.y = span.linear_axis(label);
-  panel.lines = std::move(lines);
-  return panel;
+  span.add(lines.front().points);
+  return {.x = {"time [s]", time_s.front(), time_s.back()}, .y = span.linear_axis(label), .lines = std::move(lines)};
 }
 
 Panel force_panel(const Source& source, SampleRange range, const std::string& label, double width_px) {
@@ -84,8 +80,8 @@ void add_cycle_marks(Panel& panel, const Source& source) {
   chart::Markers begin{"slip begins", Colour::Blue, Shape::Ring, {}};
   chart::Markers end{"slip ends", Colour::Blue, Shape::Cross, {}};
   for (const Cycle& cycle : source.analysis.cycle_table) {
-    const double begin_s = cycle.onset_s.value_or(cycle.peak_s);
-    const double end_s = cycle.end_s.value_or(cycle.trough_s);
+    const double begin_s = slip_begin_s(cycle);
+    const double end_s = slip_end_s(cycle);
     if (begin_s < panel.x.low || end_s > panel.x.high) continue;
     begin.points.push_back({begin_s, scale * cycle.onset_force.value_or(cycle.peak_force)});
     end.points.push_back({end_s, scale * cycle.trough_force});
@@ -150,18 +146,16 @@ namespace {
 /// A value in SI for each slip; not finite where it is not known. Evenly chosen where they are many.
 chart::Panel panel_over_slips(const std::string& name, const DisplayUnit& unit, const std::vector<double>& values) {
   constexpr std::size_t kMostSlips = 1000;
-  chart::Line line{"", chart::Colour::Blue, chart::Stroke::Solid, {}, 1.2};
-  Span span;
+  std::vector<Point> points;
   for (std::size_t i = 0; i < values.size(); i += values.size() / kMostSlips + 1) {
-    line.points.push_back({static_cast<double>(i + 1), unit.per_SI * values[i]});
-    span.add(line.points.back().y);
+    points.push_back({static_cast<double>(i + 1), unit.per_SI * values[i]});
   }
-  chart::Panel panel;
-  panel.height_px = 110.0;
-  panel.x = {"number of the slip", 0.5, static_cast<double>(values.size()) + 0.5};
-  panel.y = span.linear_axis(label_with_unit(name, unit.unit));
-  panel.lines.push_back(std::move(line));
-  return panel;
+  Span span;
+  span.add(points);
+  return {.x = {"number of the slip", 0.5, static_cast<double>(values.size()) + 0.5},
+          .y = span.linear_axis(label_with_unit(name, unit.unit)),
+          .height_px = 110.0,
+          .lines = {{"", Colour::Blue, Stroke::Solid, std::move(points), 1.2}}};
 }
 
 }  // namespace
@@ -178,7 +172,7 @@ Figure evolution_figure(const Source& source) {
   std::vector<double> peaks, drops, periods_s;
   double before_s = std::numeric_limits<double>::quiet_NaN();
   for (const Cycle& cycle : cycles) {
-    const double begin_s = cycle.onset_s.value_or(cycle.peak_s);
+    const double begin_s = slip_begin_s(cycle);
     peaks.push_back(cycle.peak_force);
     drops.push_back(cycle.peak_force - cycle.trough_force);
     periods_s.push_back(begin_s - before_s);
@@ -235,34 +229,28 @@ std::vector<Point> highest_bins(const Spectrum& spectrum, double low_Hz, double 
 chart::Panel spectrum_panel(const Source& source, const std::vector<Point>& points) {
   const DisplayUnit unit = source.force_unit;
   const Spectrum& spectrum = source.background.spectrum;
-  chart::Panel panel;
-  panel.height_px = 280.0;
   Span heights;
-  for (const Point& point : points) heights.add(point.y);
-  panel.x = {"frequency [Hz]", points.front().x, points.back().x, chart::Scale::Logarithmic};
-  panel.y = {label_with_unit("rms per bin", unit.unit), std::max(heights.low(), kDepth * heights.high()) / 1.5,
-             heights.high() * 3.0, chart::Scale::Logarithmic};
-  panel.lines.push_back({"spectrum of the force", Colour::Grey, Stroke::Solid, points, 1.1});
-
+  heights.add(points);
+  Panel panel{.x = {"frequency [Hz]", points.front().x, points.back().x, chart::Scale::Logarithmic},
+              .y = {label_with_unit("rms per bin", unit.unit), std::max(heights.low(), kDepth * heights.high()) / 1.5,
+                    heights.high() * 3.0, chart::Scale::Logarithmic},
+              .height_px = 280.0,
+              .lines = {{"spectrum of the force", Colour::Grey, Stroke::Solid, points, 1.1}},
+              .markers = {{"harmonics found", Colour::Green, Shape::Ring, {}},
+                          {"suspicious lines", Colour::Vermillion, Shape::Triangle, {}}}};
+  const auto mark = [&](chart::Markers& markers, double at_Hz) {
+    markers.points.push_back({at_Hz, height_at(spectrum, at_Hz, unit.per_SI)});
+  };
   const FrequencyReport& frequency = source.analysis.frequency;
-  chart::Markers harmonics{"harmonics found", Colour::Green, Shape::Ring, {}};
-  for (std::size_t i = 0; i < std::min(frequency.spectral.harmonics_Hz.size(), kMostHarmonics); ++i) {
-    const double at_Hz = frequency.spectral.harmonics_Hz[i];
-    harmonics.points.push_back({at_Hz, height_at(spectrum, at_Hz, unit.per_SI)});
-  }
-  if (!harmonics.points.empty()) panel.markers.push_back(harmonics);
-  chart::Markers suspicious{"suspicious lines", Colour::Vermillion, Shape::Triangle, {}};
-  for (const SuspiciousLine& line : frequency.spectral.suspicious_lines) {
-    suspicious.points.push_back({line.frequency_Hz, height_at(spectrum, line.frequency_Hz, unit.per_SI)});
-  }
-  if (!suspicious.points.empty()) panel.markers.push_back(suspicious);
+  const std::vector<double>& harmonics_Hz = frequency.spectral.harmonics_Hz;
+  for (std::size_t i = 0; i < std::min(harmonics_Hz.size(), kMostHarmonics); ++i)
+    mark(panel.markers[0], harmonics_Hz[i]);
+  for (const SuspiciousLine& line : frequency.spectral.suspicious_lines) mark(panel.markers[1], line.frequency_Hz);
+  std::erase_if(panel.markers, [](const chart::Markers& markers) { return markers.points.empty(); });
   if (frequency.quoted.value) {
-    const double at_Hz = *frequency.quoted.value;
-    panel.lines.push_back({fmt::format("chosen frequency, {} Hz", with_error(frequency.quoted)),
-                           Colour::Blue,
-                           Stroke::Dashed,
-                           {{at_Hz, panel.y.low}, {at_Hz, panel.y.high}},
-                           1.6});
+    panel.lines.push_back(line_up(panel, fmt::format("chosen frequency, {} Hz", with_error(frequency.quoted)),
+                                  *frequency.quoted.value, Colour::Blue));
+    panel.lines.back().width_px = 1.6;
   }
   return panel;
 }
@@ -313,16 +301,13 @@ chart::Panel pairs_panel(const Source& source, const std::vector<Point>& pairs) 
   const Estimate& reflection = source.background.reflection;
   Span peaks;
   Span troughs;
-  for (const Point& pair : pairs) {
-    peaks.add(pair.x);
-    troughs.add(pair.y);
+  peaks.add(pairs, &Point::x);
+  troughs.add(pairs);
+  for (const double end : {-*reflection.value * peaks.low(), -*reflection.value * peaks.high(), -peaks.high()}) {
+    troughs.add(end);
   }
-  chart::Panel panel;
-  panel.x = peaks.linear_axis(label_with_unit("peak above kinetic friction", unit));
-  troughs.add(-*reflection.value * peaks.low());
-  troughs.add(-*reflection.value * peaks.high());
-  troughs.add(-peaks.high());
-  panel.y = troughs.linear_axis(label_with_unit("trough above kinetic friction", unit));
+  Panel panel{.x = peaks.linear_axis(label_with_unit("peak above kinetic friction", unit)),
+              .y = troughs.linear_axis(label_with_unit("trough above kinetic friction", unit))};
   const double left = panel.x.low;
   const double right = panel.x.high;
   const auto line_to = [left, right](double ratio) {
@@ -450,7 +435,6 @@ Figure residuals_figure(const Source& source) {
   chart::Line mean{"mean residual", Colour::Blue, Stroke::Solid, {}};
   chart::Area band{"two standard errors", Colour::Blue, chart::Fill::Plain, {}, kEdge_px};
   std::vector<Point> lower;
-  Span span;
   for (std::size_t i = 0; i < bins.size(); ++i) {
     if (bins[i].size() < kFewestInBin) continue;
     const MeanAndSpread residual = describe(bins[i]);
@@ -459,18 +443,17 @@ Figure residuals_figure(const Source& source) {
     mean.points.push_back({phase, residual.mean});
     band.outline.push_back({phase, residual.mean + error});
     lower.push_back({phase, residual.mean - error});
-    span.add(band.outline.back().y);
-    span.add(lower.back().y);
   }
   if (mean.points.size() < 3) return figure.without_chart("There are too few fitted cycles.");
   band.outline.insert(band.outline.end(), lower.rbegin(), lower.rend());
+  Span span;
+  span.add(band.outline);
   span.add(0.0);
-  Panel panel;
-  panel.height_px = 220.0;
-  panel.x = {"stick from -1 to 0, slip from 0 to 1", -1.0, 1.0};
-  panel.y = span.linear_axis(label_with_unit("residual", source.force_unit.unit));
-  panel.areas = {std::move(band)};
-  panel.lines = {{"", Colour::Grey, Stroke::Dashed, {{-1.0, 0.0}, {1.0, 0.0}}, 1.2}, std::move(mean)};
+  Panel panel{.x = {"stick from -1 to 0, slip from 0 to 1", -1.0, 1.0},
+              .y = span.linear_axis(label_with_unit("residual", source.force_unit.unit)),
+              .height_px = 220.0,
+              .areas = {std::move(band)},
+              .lines = {{"", Colour::Grey, Stroke::Dashed, {{-1.0, 0.0}, {1.0, 0.0}}, 1.2}, std::move(mean)}};
   figure.label = fmt::format("mean residual over stick and slip of {} fitted cycles", source.analysis.cycles.used);
   figure.chart = chart::Chart{"Residual over the cycle", {}, {std::move(panel)}};
   return figure;

@@ -52,8 +52,7 @@ std::vector<Anchor> anchors_of(const Analysis& analysis) {
   for (const Cycle& cycle : analysis.cycle_table) {
     if (analysis.cycles.used > 0 && !(cycle.used && cycle.level_force)) continue;
     const double force = cycle.level_force.value_or(cycle.trough_force);
-    anchors.push_back(
-        {cycle.onset_s.value_or(cycle.peak_s), force, cycle.onset_force.value_or(cycle.peak_force) - force});
+    anchors.push_back({slip_begin_s(cycle), force, cycle.onset_force.value_or(cycle.peak_force) - force});
   }
   return anchors;
 }
@@ -121,7 +120,7 @@ struct OverlayPanel {
         line.points.push_back({0.0, std::numeric_limits<double>::quiet_NaN()});
       }
     }
-    for (const Point& point : line.points) height.add(point.y);
+    height.add(line.points);
     panel.lines.push_back(std::move(line));
   }
 

@@ -114,10 +114,8 @@ class SpeedPanel {
     Span values;
     Span bounds;
     const auto add = [&speeds](Span& heights, const std::vector<Point>& points) {
-      for (const Point& point : points) {
-        speeds.add(point.x);
-        heights.add(point.y);
-      }
+      speeds.add(points, &Point::x);
+      heights.add(points);
     };
     for (const chart::Markers& markers : panel_.markers) add(values, markers.points);
     for (const chart::Line& line : panel_.lines) add(line.name.empty() ? bounds : values, line.points);
@@ -148,8 +146,7 @@ class SpeedPanel {
       panel.areas.push_back(
           rectangle("", Colour::Orange, {at(ci95->low), panel.y.low}, {at(ci95->high), panel.y.high}));
     }
-    panel.lines.push_back(
-        {"stick-slip ends, 95 %", Colour::Orange, Stroke::Dashed, {{x, panel.y.low}, {x, panel.y.high}}});
+    panel.lines.push_back(line_up(panel, "stick-slip ends, 95 %", x, Colour::Orange));
   }
   [[nodiscard]] Point at(double speed_m_per_s, double SI) const {
     return {speed_unit_.per_SI * speed_m_per_s, unit_.per_SI * SI};

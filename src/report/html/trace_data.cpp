@@ -116,8 +116,8 @@ std::vector<double> slip_times_s(const Analysis& analysis) {
   std::vector<double> times_s;
   if (!shows_cycles(analysis)) return times_s;
   for (const Cycle& cycle : analysis.cycle_table) {
-    times_s.push_back(cycle.onset_s.value_or(cycle.peak_s));
-    times_s.push_back(cycle.end_s.value_or(cycle.trough_s));
+    times_s.push_back(slip_begin_s(cycle));
+    times_s.push_back(slip_end_s(cycle));
   }
   return times_s;
 }
