@@ -246,7 +246,7 @@ Json parameters_json(const FitResult& fit) {
   return json;
 }
 
-/// With the matrix, the values to which the covariance belongs and the standard errors that with the matrix are the
+/// Writes the matrix, the values to which the covariance belongs, and the standard errors that with the matrix are the
 /// whole covariance. A value that the data hardly determine alone, and whose parameter is therefore null, is still
 /// included: together with the others it predicts. If zeta is at 0, the se of the parameters is wider.
 Json correlation_json(const FitResult& fit) {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "report/blocks.hpp"
 #include "report/json_values.hpp"
-#include "report/text_sections.hpp"
 #include "slipfit/core/printable.hpp"
 
 namespace slipfit {

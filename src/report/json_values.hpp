@@ -54,7 +54,7 @@ Json array_of(const Items& items, ToJson to_json) {
 /// Valid UTF-8, whatever the strings from outside hold.
 std::string text_of(const Json& json, JsonLayout layout = JsonLayout::Indented);
 
-/// What was asked of a fit.
+/// The options of a fit as the user stated them.
 Json options_json(const AskedFit& asked);
 
 }  // namespace slipfit

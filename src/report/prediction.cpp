@@ -7,11 +7,11 @@
 #include <optional>
 
 #include "core/statistics.hpp"
+#include "report/blocks.hpp"
 #include "report/format.hpp"
 #include "report/json_values.hpp"
 #include "report/names.hpp"
 #include "report/quantity_rows.hpp"
-#include "report/text_sections.hpp"
 #include "slipfit/core/printable.hpp"
 #include "slipfit/report/text.hpp"
 

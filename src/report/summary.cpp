@@ -11,11 +11,10 @@
 #include <vector>
 
 #include "analysis/rules.hpp"
-#include "report/document/check_document.hpp"
+#include "report/blocks.hpp"
 #include "report/document/json_node.hpp"
 #include "report/names.hpp"
 #include "report/quantity_rows.hpp"
-#include "report/text_sections.hpp"
 #include "slipfit/core/printable.hpp"
 #include "slipfit/report/sweep.hpp"
 #include "slipfit/report/text.hpp"
@@ -31,7 +30,7 @@ std::string sentence(std::string text) {
   return text;
 }
 
-/// What a summary shows, before it is fitted to the screen.
+/// The content of a summary, before it is fitted to the screen.
 struct Screen {
   struct Row {
     std::string label;

@@ -11,7 +11,6 @@
 #include <utility>
 
 #include "core/statistics.hpp"
-#include "report/document/check_document.hpp"
 #include "report/document/json_node.hpp"
 #include "report/names.hpp"
 #include "slipfit/core/printable.hpp"

@@ -10,7 +10,7 @@
 #include "chart/chart.hpp"
 #include "io/message.hpp"
 #include "report/batch_html.hpp"
-#include "report/document/check_document.hpp"
+#include "report/document/json_node.hpp"
 #include "report/html/assets.hpp"
 #include "report/html/figure.hpp"
 #include "report/html/page.hpp"
@@ -89,10 +89,9 @@ std::optional<chart::Panel> histogram(std::vector<double> values, std::string la
   for (const double value : values) {
     counts[std::min(bins - 1, static_cast<std::size_t>(std::log(value / first) / step))] += 1.0;
   }
-  chart::Panel panel;
-  panel.height_px = 160.0;
-  panel.x = {label, first, first * std::exp(step * static_cast<double>(bins)), chart::Scale::Logarithmic};
-  panel.y = {"recordings", 0.0, 1.1 * *std::ranges::max_element(counts)};
+  chart::Panel panel{.x = {label, first, first * std::exp(step * static_cast<double>(bins)), chart::Scale::Logarithmic},
+                     .y = {"recordings", 0.0, 1.1 * *std::ranges::max_element(counts)},
+                     .height_px = 160.0};
   for (std::size_t i = 0; i < bins; ++i) {
     const double left = first * std::exp(step * static_cast<double>(i));
     const double right = left * std::exp(step);

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "analysis/rules.hpp"
+#include "report/blocks.hpp"
 #include "report/html/assets.hpp"
 #include "report/names.hpp"
-#include "report/text_sections.hpp"
 #include "slipfit/core/printable.hpp"
 
 namespace slipfit::html {
@@ -57,10 +57,6 @@ std::string replaced(std::string_view content, const std::array<Replacement, cou
 /// The class that the mark of a heading gives to its column.
 std::string class_of(const std::string& heading) {
   return heading.starts_with('#') ? " class=\"number\"" : heading.starts_with('~') ? " class=\"interval\"" : "";
-}
-
-std::string status_mark(std::string_view status) {
-  return fmt::format(R"(<span class="status {0}">{0}</span>)", text(status));
 }
 
 }  // namespace
@@ -124,6 +120,10 @@ Cell quantity_cell(const Estimate& SI, double per_SI, const std::string& status)
   return {
       text(shown.value) + small(shown.interval) + (status.empty() ? "" : "<small>" + status_mark(status) + "</small>"),
       fmt::format(" data-value=\"{}\"", SI.value ? fmt::format("{}", *SI.value) : std::string())};
+}
+
+std::string status_mark(std::string_view status) {
+  return fmt::format(R"(<span class="status {0}">{0}</span>)", text(status));
 }
 
 std::string small(std::string_view content) {

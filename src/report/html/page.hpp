@@ -42,6 +42,8 @@ std::string table(std::string_view attributes, const std::vector<std::string>& h
 /// A quantity rounded by its uncertainty, its interval, the value to sort by, and the status of a parameter.
 Cell quantity_cell(const Estimate& SI, double per_SI, const std::string& status = {});
 
+/// <span> with the status of a parameter and its mark.
+std::string status_mark(std::string_view status);
 /// <small> of text; empty where that is.
 std::string small(std::string_view content);
 /// <span class="note"> of text; empty where that is.

@@ -12,7 +12,6 @@
 #include "report/html/page.hpp"
 #include "report/names.hpp"
 #include "report/quantity_rows.hpp"
-#include "report/text_sections.hpp"
 
 namespace slipfit {
 namespace html {
@@ -90,9 +89,7 @@ std::string motion_sentence(const Source& source) {
 std::string key_number(std::string_view words, const EstimateRow& row, std::string_view status,
                        const std::string& unknown_text = "not known") {
   const bool is_known = row.value != "-";
-  const std::string mark = !is_known || status.empty()
-                               ? std::string()
-                               : fmt::format(R"(<small><span class="status {0}">{0}</span></small>)", status);
+  const std::string mark = is_known && !status.empty() ? "<small>" + status_mark(status) + "</small>" : "";
   return fmt::format("<div><dt>{}</dt><dd>{}{}{}</dd></div>\n", formula_text(words),
                      text(is_known ? value_text(row) : unknown_text), small(row.interval), mark);
 }
@@ -184,7 +181,7 @@ std::string numbers_part(const Source& source) {
                      "</details>\n");
 }
 
-/// What a reader needs to repeat the analysis.
+/// Returns the section with all that a reader needs to repeat the analysis.
 std::string origin_part(const Recording& recording, const ReportOrigin& origin) {
   const Conditions& conditions = recording.conditions();
   const Provenance& provenance = recording.provenance();

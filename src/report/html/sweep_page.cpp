@@ -7,12 +7,12 @@
 #include <vector>
 
 #include "core/statistics.hpp"
+#include "report/blocks.hpp"
 #include "report/html/figure.hpp"
 #include "report/html/page.hpp"
 #include "report/html/speed_figures.hpp"
 #include "report/names.hpp"
 #include "report/quantity_rows.hpp"
-#include "report/text_sections.hpp"
 #include "slipfit/report/sweep_html.hpp"
 
 namespace slipfit {
