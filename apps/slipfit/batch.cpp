@@ -2,22 +2,28 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <filesystem>
-#include <memory>
+#include <fstream>
+#include <iterator>
 #include <optional>
+#include <set>
 #include <string>
 
-#include "batch_folder.hpp"
 #include "commands.hpp"
+#include "drafts.hpp"
 #include "failure.hpp"
 #include "output.hpp"
 #include "progress_line.hpp"
 #include "quantities.hpp"
+#include "recording_options.hpp"
 #include "slipfit/io/file_info.hpp"
 #include "stop_signals.hpp"
 
 namespace {
+
+namespace fs = std::filesystem;
 
 constexpr std::size_t kMostJobs = 1024;
 
@@ -34,7 +40,7 @@ struct BatchArguments {
   std::string tier = "auto";
   std::vector<std::string> fixed;
   std::optional<std::string> report;
-  bool quiet = false;
+  DocumentOptions messages;
 };
 
 void add_options(CLI::App& command, BatchArguments& arguments) {
@@ -60,7 +66,7 @@ void add_options(CLI::App& command, BatchArguments& arguments) {
   command.add_option(
       "--report", arguments.report,
       "Page of the batch (HTML, such as DIR/index.html); the pages of the recordings are written to the same folder");
-  command.add_flag("--quiet", arguments.quiet, "Print only errors on standard error");
+  add_quiet_option(command, arguments.messages);
 }
 
 slipfit::Shard shard_from(const std::string& text) {
@@ -71,14 +77,13 @@ slipfit::Shard shard_from(const std::string& text) {
   const auto count = has_slash ? std::from_chars(index.ptr + 1, end, shard.count) : index;
   const bool is_whole = has_slash && count.ec == std::errc() && count.ptr == end;
   if (is_whole && shard.index >= 1 && shard.index <= shard.count) return shard;
-  throw Failure(ExitCode::WrongUsage,
-                fmt::format("--shard: bad '{}', expected I/N with I from 1 to N (Slurm: --array=1-N)", text));
+  refuse("--shard: bad '{}', expected I/N with I from 1 to N (Slurm: --array=1-N)", text);
 }
 
 std::size_t jobs_from(const std::optional<std::size_t>& jobs) {
   if (!jobs) return slipfit::default_jobs();
   if (*jobs >= 1 && *jobs <= kMostJobs) return *jobs;
-  throw Failure(ExitCode::WrongUsage, fmt::format("--jobs: {} is out of range, expected 1 to {}", *jobs, kMostJobs));
+  refuse("--jobs: {} is out of range, expected 1 to {}", *jobs, kMostJobs);
 }
 
 /// The command on the pages: what changes the results, so that the pages do not depend on the rest.
@@ -109,13 +114,91 @@ slipfit::BatchOutcome run_shown(const slipfit::BatchOptions& options, const Batc
   slipfit::BatchHooks hooks;
   hooks.should_stop = [] { return StopSignals::received().has_value(); };
   hooks.should_suspend = StopSignals::take_suspension;
-  if (!arguments.quiet) {
+  if (!arguments.messages.quiet) {
     hooks.show_progress = [&line](const slipfit::BatchProgress& progress) { line.show(progress); };
     hooks.notify = say;
   }
-  auto outcome = slipfit::run_batch(options, hooks);
-  if (!outcome) throw Failure(ExitCode::WrongUsage, outcome.error());
-  return std::move(outcome).value();
+  return value_or_fail(slipfit::run_batch(options, hooks));
+}
+
+/// Returns columns for options that apply to every recording; speed and load fill cells instead.
+std::vector<slipfit::DraftColumn> columns_from(const RecordingArguments& options) {
+  static const std::set<std::string_view> kFilled{"speed", "radius", "normal_force"};
+  std::vector<slipfit::DraftColumn> columns;
+  for (const slipfit::RecordingOption& option : given_options(options)) {
+    if (kFilled.contains(option.column)) continue;
+    if (option.column == "step") refuse("--step applies to one recording: use slipfit fit");
+    const std::string column(option.column);
+    columns.push_back({column, options.said.at(column)});
+  }
+  return columns;
+}
+
+bool lies_in(const fs::path& file, const fs::path& folder) {
+  std::error_code error;
+  const fs::path way = fs::relative(file, folder, error);
+  return !error && !way.empty() && *way.begin() != "..";
+}
+
+/// Fills the cells; stated values take precedence.
+void fill(slipfit::ManifestDraft& draft, const RecordingArguments& options, const DocumentOptions& messages) {
+  const slipfit::Conditions stated = entry_from(options).conditions;
+  for (slipfit::DraftEntry& entry : draft.entries) {
+    notify_of_replaced(stated, entry, messages);
+    if (stated.speed_m_per_s > 0.0) entry.speed_m_per_s = stated.speed_m_per_s;
+    if (stated.normal_force_N) entry.normal_force_N = stated.normal_force_N;
+  }
+}
+
+/// Nothing is begun where nothing could be fitted; of some without a speed the results say so.
+void check_speeds(const slipfit::ManifestDraft& draft, const BatchArguments& arguments) {
+  const auto without = std::count_if(draft.entries.begin(), draft.entries.end(),
+                                     [](const slipfit::DraftEntry& entry) { return !entry.speed_m_per_s; });
+  if (without == static_cast<std::ptrdiff_t>(draft.entries.size())) {
+    refuse(
+        "'{}': no recording has a speed in a column or in its name; give --speed, or draft a manifest ({} --out "
+        "runs.csv) and fill it in",
+        arguments.paths.front(), manifest_command(arguments.paths));
+  }
+  if (without > 0) {
+    arguments.messages.notify(
+        fmt::format("{} of {} recordings have no speed: give --speed", without, draft.entries.size()));
+  }
+}
+
+/// The draft of an earlier run stays what its results are of.
+void check_same(const std::string& file, const std::string& text) {
+  std::error_code ignored;
+  if (!fs::exists(file, ignored)) return;
+  std::ifstream stream(file, std::ios::binary);
+  if (std::string(std::istreambuf_iterator<char>(stream), {}) == text) return;
+  refuse(
+      "'{}' exists and differs from the manifest of these files and options: choose another --out, or give it as the "
+      "manifest to continue",
+      file);
+}
+
+/// Drafts the manifest of the recordings as `slipfit manifest` does, with what the options state, into the folder of
+/// the results; returns its file.
+std::string drafted_manifest(const BatchArguments& arguments) {
+  const DocumentOptions& messages = arguments.messages;
+  const std::vector<slipfit::DraftColumn> columns = columns_from(arguments.recording);
+  slipfit::ManifestDraft draft = draft_of(arguments.paths, read_options_from(arguments.recording), messages);
+  draft.skipped.clear();
+  draft = slipfit::writable(std::move(draft));
+  for (const slipfit::Error& error : draft.skipped) messages.notify("left out: " + error.message);
+  std::erase_if(draft.entries, [&arguments](const auto& entry) { return lies_in(entry.file, arguments.out); });
+  if (draft.entries.empty())
+    throw Failure(ExitCode::BadRecording, "no recording found apart from the results in --out");
+  fill(draft, arguments.recording, messages);
+  check_speeds(draft, arguments);
+  make_folder({"--out", arguments.out});
+  std::string file = (fs::path(arguments.out) / "manifest.csv").string();
+  const std::string text = slipfit::to_csv(draft, arguments.out, columns);
+  check_same(file, text);
+  write_file({"--out", file}, text);
+  messages.notify(fmt::format("drafted the manifest '{}' of {} recordings", file, draft.entries.size()));
+  return file;
 }
 
 /// Returns true if the paths name a manifest: any file that is one, or a single file that is not a recording either,
@@ -123,8 +206,8 @@ slipfit::BatchOutcome run_shown(const slipfit::BatchOptions& options, const Batc
 bool names_manifest(const std::vector<std::string>& paths) {
   std::error_code ignored;
   const std::string& first = paths.front();
-  if (paths.size() > 1 || std::filesystem::is_directory(first, ignored)) return false;
-  if (!std::filesystem::is_regular_file(first, ignored) || is_manifest(first)) return true;  // a pipe is not waited for
+  if (paths.size() > 1 || fs::is_directory(first, ignored)) return false;
+  if (!fs::is_regular_file(first, ignored) || is_manifest(first)) return true;  // a pipe is not waited for
   const auto recording = slipfit::inspect_recording(first);
   return !recording || recording.value().refusal;
 }
@@ -132,34 +215,34 @@ bool names_manifest(const std::vector<std::string>& paths) {
 /// A manifest as it is; that of files and folders is drafted first.
 BatchArguments with_manifest(BatchArguments arguments) {
   if (arguments.report) {
-    if (std::filesystem::path(*arguments.report).extension().empty()) refuse_report_name(*arguments.report);
+    if (fs::path(*arguments.report).extension().empty()) refuse_report_name(*arguments.report);
     check_report_name(*arguments.report);
   }
   if (names_manifest(arguments.paths)) {
-    refuse_recording_options(arguments.recording);
+    if (const auto given = given_options(arguments.recording); !given.empty()) {
+      refuse(
+          "{} cannot be combined with a manifest, whose columns state how each recording was made; it can be combined "
+          "with a folder",
+          given.front().name());
+    }
     arguments.manifest = arguments.paths.front();
     return arguments;
   }
   for (const std::string& path : arguments.paths) {
     std::error_code ignored;
-    if (std::filesystem::is_directory(path, ignored) || !is_manifest(path)) continue;
-    throw Failure(ExitCode::WrongUsage,
-                  fmt::format("'{}' is a manifest: give it alone, or give only recordings and folders", path));
+    if (fs::is_directory(path, ignored) || !is_manifest(path)) continue;
+    refuse("'{}' is a manifest: give it alone, or give only recordings and folders", path);
   }
   if (arguments.shard) {
-    std::vector<std::string> draft{"slipfit", "manifest"};
-    draft.insert(draft.end(), arguments.paths.begin(), arguments.paths.end());
-    throw Failure(ExitCode::WrongUsage, fmt::format("--shard: the shards need one manifest, draft it first ({} --out "
-                                                    "runs.csv)",
-                                                    shell_line(draft)));
+    refuse("--shard: the shards need one manifest, draft it first ({} --out runs.csv)",
+           manifest_command(arguments.paths));
   }
-  DocumentOptions messages;
-  messages.quiet = arguments.quiet;
-  arguments.manifest = drafted_manifest({arguments.paths, arguments.out, arguments.recording}, notifier(messages));
+  arguments.manifest = drafted_manifest(arguments);
   return arguments;
 }
 
-void run(const BatchArguments& arguments) {
+void run(const BatchArguments& stated) {
+  const BatchArguments arguments = with_manifest(stated);
   const slipfit::BatchOptions options = options_from(arguments);
   const StopSignals signals;
   const slipfit::BatchOutcome outcome = run_shown(options, arguments);
@@ -174,15 +257,14 @@ void run(const BatchArguments& arguments) {
                   fmt::format("{} of {} recordings failed: the reasons are in '{}'", progress.failed, progress.total,
                               (options.folder / "failures.csv").string()));
   }
-  if (!arguments.quiet) say(fmt::format("wrote {} results to '{}' in {:.3g} s", done, arguments.out, progress.seconds));
+  arguments.messages.notify(fmt::format("wrote {} results to '{}' in {:.3g} s", done, arguments.out, progress.seconds));
 }
 
 }  // namespace
 
-void add_batch_command(CLI::App& program) {
-  CLI::App* const command = program.add_subcommand(
-      "batch", "Fits every recording of a manifest, or of files and folders, and writes the results into a folder");
-  const auto arguments = std::make_shared<BatchArguments>();
-  add_options(*command, *arguments);
-  command->callback([arguments] { run(with_manifest(*arguments)); });
+void add_batch_command(CLI::App& program, const std::string& /*typed_line*/) {
+  add_command<BatchArguments>(
+      program, "batch",
+      "Fits every recording of a manifest, or of files and folders, and writes the results into a folder", add_options,
+      run);
 }

@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <filesystem>
 #include <fstream>
-#include <memory>
 
 #include "commands.hpp"
 #include "document_file.hpp"
@@ -12,11 +12,11 @@
 #include "failure.hpp"
 #include "output.hpp"
 #include "progress_line.hpp"
+#include "slipfit/io/manifest.hpp"
 #include "slipfit/io/recording_reader.hpp"
 #include "slipfit/pipeline.hpp"
 #include "slipfit/report/comparison.hpp"
 #include "slipfit/report/json.hpp"
-#include "sweep_run.hpp"
 
 namespace {
 
@@ -29,20 +29,16 @@ struct CompareArguments {
   std::vector<std::string> groups;
   RecordingArguments recording;
   DocumentOptions document;
-  std::string command_line;
 };
 
-/// The arguments of one side.
-struct SideArguments {
+/// One side: what is stated of it, its recordings, and their results.
+struct Side {
   std::vector<std::string> paths;
-  std::optional<std::string> group;
+  std::optional<std::string> group{};
   RecordingArguments recording;
-};
-
-/// A side before its recordings are fitted.
-struct Source {
-  slipfit::ComparisonSide side;
-  std::vector<ManifestEntry> entries;
+  std::vector<ManifestEntry> entries{};  ///< recordings to fit
+  slipfit::ComparisonSide result{};
+  std::vector<slipfit::ComparedRecording> kept{};  ///< whose cycles a page shows
 };
 
 /// One document, or one a line.
@@ -51,67 +47,58 @@ bool is_results_file(const std::string& file) {
   return (stream >> std::ws).peek() == '{';
 }
 
-void add_fit(const std::string& document, const std::string& place, const SideArguments& arguments, Source& source) {
-  auto fit = slipfit::compared_fit(document, place);
-  if (!fit) throw Failure(ExitCode::WrongUsage, fit.error());
-  const bool is_joint = fit.value().id.starts_with("group:");
-  if (is_joint || (arguments.group && fit.value().group != *arguments.group)) return;
-  source.side.fits.push_back(std::move(fit).value());
-}
-
-void add_results(const std::string& file, const SideArguments& arguments, Source& source) {
-  const std::size_t before = source.side.fits.size();
-  const bool is_log = fs::path(file).extension() == ".jsonl";
-  if (!is_log) add_fit(document_text(file), file, arguments, source);
-  std::ifstream lines(file, std::ios::binary);
-  std::string line;
-  for (std::size_t number = 1; is_log && std::getline(lines, line); ++number) {
-    add_fit(line, fmt::format("{}:{}", file, number), arguments, source);
+void add_results(const std::string& file, Side& side) {
+  const std::size_t before = side.result.fits.size();
+  const auto add = [&side](const std::string& document, const std::string& place) {
+    slipfit::ComparedFit fit = value_or_fail(slipfit::compared_fit(document, place));
+    const bool is_joint = fit.id.starts_with("group:");
+    if (!is_joint && (!side.group || fit.group == *side.group)) side.result.fits.push_back(std::move(fit));
+  };
+  if (fs::path(file).extension() == ".jsonl") {
+    std::ifstream lines(file, std::ios::binary);
+    std::string line;
+    for (std::size_t number = 1; std::getline(lines, line); ++number) add(line, fmt::format("{}:{}", file, number));
+  } else {
+    add(document_text(file), file);
   }
-  if (source.side.fits.size() > before) return;
-  const std::string group = arguments.group ? fmt::format(" of group '{}'", *arguments.group) : std::string();
-  throw Failure(ExitCode::WrongUsage, fmt::format("'{}': no result{} in it", file, group));
+  if (side.result.fits.size() > before) return;
+  refuse("'{}': no result{} in it", file, side.group ? " of group '" + *side.group + "'" : "");
 }
 
-void keep_group(const std::string& group, std::vector<ManifestEntry>& entries) {
-  std::erase_if(entries, [&group](const ManifestEntry& entry) { return entry.group != group; });
-  if (entries.empty()) throw Failure(ExitCode::WrongUsage, fmt::format("--group: no recording of '{}'", group));
-}
-
-/// Files and folders of recordings are drafted together, so that --speed may be given once for each.
-Source source_of(const SideArguments& arguments, const Notify& notify) {
-  Source source;
+/// Reads what the paths name. Files and folders of recordings are drafted together, so that --speed may be given once
+/// for each.
+void gather(Side& side, const DocumentOptions& document) {
   std::vector<std::string> recordings;
-  for (const std::string& path : arguments.paths) {
+  for (const std::string& path : side.paths) {
     std::error_code ignored;
     const std::string log = (fs::path(path) / "results.jsonl").string();
     const bool is_folder = fs::is_directory(path, ignored);
     if (is_folder && fs::exists(log, ignored)) {
-      add_results(log, arguments, source);
+      add_results(log, side);
     } else if (!is_folder && is_results_file(path)) {
-      add_results(path, arguments, source);
+      add_results(path, side);
     } else if (!is_folder && is_manifest(path)) {
-      for (ManifestEntry& entry : manifest_entries(path, arguments.group, {}))
-        source.entries.push_back(std::move(entry));
+      for (ManifestEntry& entry : manifest_entries(path, side.group, {})) side.entries.push_back(std::move(entry));
     } else {
       recordings.push_back(path);
     }
   }
-  if (!recordings.empty()) {
-    const auto draft = draft_of(recordings, read_options_from(arguments.recording), notify);
-    auto entries = entries_of(draft, arguments.recording, notify);
-    if (arguments.group) keep_group(*arguments.group, entries);
-    source.entries.insert(source.entries.end(), entries.begin(), entries.end());
+  if (recordings.empty()) return;
+  const auto draft = draft_of(recordings, read_options_from(side.recording), document);
+  auto entries = entries_of(draft, side.recording, document);
+  if (side.group) {
+    std::erase_if(entries, [&side](const ManifestEntry& entry) { return entry.group != *side.group; });
+    if (entries.empty()) refuse("--group: no recording of '{}'", *side.group);
   }
-  return source;
+  side.entries.insert(side.entries.end(), entries.begin(), entries.end());
 }
 
-std::string name_of(const SideArguments& arguments) {
-  if (arguments.group) return *arguments.group;
-  fs::path path(arguments.paths.front());
+std::string name_of(const Side& side) {
+  if (side.group) return *side.group;
+  fs::path path(side.paths.front());
   if (!path.has_filename()) path = path.parent_path();
   const std::string name = path.stem().string();
-  return arguments.paths.size() == 1 ? name : fmt::format("{} and {} more", name, arguments.paths.size() - 1);
+  return side.paths.size() == 1 ? name : fmt::format("{} and {} more", name, side.paths.size() - 1);
 }
 
 slipfit::ComparedRecording analysed(const ManifestEntry& entry) {
@@ -125,44 +112,33 @@ slipfit::ComparedRecording analysed(const ManifestEntry& entry) {
 }
 
 /// Fits the recordings of both sides; keeps them where a page shows their cycles.
-class Fitting {
- public:
-  Fitting(const CompareArguments& arguments, std::size_t total) : arguments_(arguments), total_(total) {}
-
-  std::vector<slipfit::ComparedRecording> fit(Source& source) {
-    std::vector<slipfit::ComparedRecording> kept;
-    for (const ManifestEntry& entry : source.entries) {
-      if (!arguments_.document.quiet) line_.show(fmt::format("fitting recording {} of {}", ++done_, total_));
+void fit(std::array<Side, 2>& sides, const DocumentOptions& document) {
+  ProgressLine line;
+  std::size_t done = 0;
+  const std::size_t total = sides[0].entries.size() + sides[1].entries.size();
+  for (Side& side : sides) {
+    for (const ManifestEntry& entry : side.entries) {
+      if (!document.quiet) line.show(fmt::format("fitting recording {} of {}", ++done, total));
       slipfit::ComparedRecording one = analysed(entry);
-      slipfit::JsonOptions options;
-      options.id = entry.id;
-      auto compared = slipfit::compared_fit(to_json(one.recording, one.analysis, options), entry.file);
-      if (!compared) throw Failure(ExitCode::BadRecording, compared.error());
-      source.side.fits.push_back(std::move(compared).value());
-      if (arguments_.document.has("--report")) kept.push_back(std::move(one));
+      const std::string json = to_json(one.recording, one.analysis, {.id = entry.id});
+      side.result.fits.push_back(value_or_fail(slipfit::compared_fit(json, entry.file), ExitCode::BadRecording));
+      if (document.has("--report")) side.kept.push_back(std::move(one));
     }
-    return kept;
   }
-
- private:
-  const CompareArguments& arguments_;
-  std::size_t total_ = 0;
-  std::size_t done_ = 0;
-  ProgressLine line_;
-};
+}
 
 /// Paths, group and speed of each side.
-std::pair<SideArguments, SideArguments> sides_of(const CompareArguments& arguments) {
-  SideArguments a{arguments.files_a, {}, arguments.recording};
-  SideArguments b{arguments.files_b, {}, arguments.recording};
+std::array<Side, 2> sides_of(const CompareArguments& arguments) {
+  Side a{.paths = arguments.files_a, .recording = arguments.recording};
+  Side b{.paths = arguments.files_b, .recording = arguments.recording};
   const std::vector<std::string>& sides = arguments.sides;
   const bool has_two_groups = arguments.groups.size() == 2;
   if (!sides.empty()) a.paths.insert(a.paths.begin(), sides.front());
   if (sides.size() > 1 || (has_two_groups && !sides.empty())) b.paths.insert(b.paths.begin(), sides.back());
   if (a.paths.empty() || b.paths.empty()) {
-    throw Failure(ExitCode::WrongUsage,
-                  "two sides are compared: give A and B, or --a FILE... --b FILE..., or one source with two groups "
-                  "(--group A --group B)");
+    refuse(
+        "two sides are compared: give A and B, or --a FILE... --b FILE..., or one source with two groups "
+        "(--group A --group B)");
   }
   if (!arguments.groups.empty()) a.group = arguments.groups.front();
   if (!arguments.groups.empty()) b.group = arguments.groups.back();
@@ -170,53 +146,49 @@ std::pair<SideArguments, SideArguments> sides_of(const CompareArguments& argumen
     a.recording.speeds = {speeds.front()};
     b.recording.speeds = {speeds.back()};
   } else if (speeds.size() > 2) {
-    throw Failure(ExitCode::WrongUsage, "--speed: give it once for both sides, or twice, for A and for B");
+    refuse("--speed: give it once for both sides, or twice, for A and for B");
   }
-  return {a, b};
+  return {std::move(a), std::move(b)};
+}
+
+void add_options(CLI::App& command, CompareArguments& arguments) {
+  add_recording_options(command, arguments.recording);
+  command.remove_option(command.get_option("REC"));
+  command
+      .add_option("SIDES", arguments.sides,
+                  "A and B: each a recording, a folder or manifest of repeats, or a result of fit --json or batch")
+      ->expected(0, 2);
+  command.add_option("--a", arguments.files_a, "Further recordings or results of A");
+  command.add_option("--b", arguments.files_b, "Further recordings or results of B");
+  command.add_option("--group", arguments.groups, "Group of the manifest or results; give it twice, for A and B")
+      ->expected(1, 2)
+      ->allow_extra_args(false);
+  add_document_options(command, arguments.document, "text");
+  add_report_option(command, arguments.document);
 }
 
 void run(const CompareArguments& arguments) {
-  const auto [side_a, side_b] = sides_of(arguments);
-  for (const SideArguments* const side : {&side_a, &side_b}) {
-    for (const std::string& path : side->paths) check_outputs(arguments.document.outputs, path);
+  const DocumentOptions& document = arguments.document;
+  std::array<Side, 2> sides = sides_of(arguments);
+  for (const Side& side : sides) {
+    for (const std::string& path : side.paths) check_outputs(document.outputs, path);
   }
-  const Notify notify = notifier(arguments.document);
-  Source a = source_of(side_a, notify);
-  Source b = source_of(side_b, notify);
-  slipfit::ComparisonOrigin origin;
-  origin.command_line = arguments.command_line;
-  {
-    Fitting fitting(arguments, a.entries.size() + b.entries.size());
-    origin.recordings_a = fitting.fit(a);
-    origin.recordings_b = fitting.fit(b);
-  }
-  a.side.name = name_of(side_a);
-  b.side.name = name_of(side_b);
-  const slipfit::Comparison comparison = slipfit::compare(a.side, b.side);
-  write_results(arguments.document, [&](const std::string& option) {
+  for (Side& side : sides) gather(side, document);
+  fit(sides, document);
+  for (Side& side : sides) side.result.name = name_of(side);
+  const slipfit::Comparison comparison = slipfit::compare(sides[0].result, sides[1].result);
+  const slipfit::ComparisonOrigin origin{document.command_line, std::move(sides[0].kept), std::move(sides[1].kept)};
+  write_results(document, [&](const std::string& option) {
     if (option == "--report") return to_html(comparison, origin);
-    return arguments.document.json ? to_json(comparison) + "\n" : to_text(comparison);
+    return document.json ? to_json(comparison) + "\n" : to_text(comparison);
   });
 }
 
 }  // namespace
 
-void add_compare_command(CLI::App& program, const std::string& command_line) {
-  CLI::App* const command = program.add_subcommand("compare", "Compares two recordings, groups of repeats, or results");
-  const auto arguments = std::make_shared<CompareArguments>();
-  arguments->command_line = command_line;
-  add_recording_options(*command, arguments->recording);
-  command->remove_option(command->get_option("REC"));
-  command
-      ->add_option("SIDES", arguments->sides,
-                   "A and B: each a recording, a folder or manifest of repeats, or a result of fit --json or batch")
-      ->expected(0, 2);
-  command->add_option("--a", arguments->files_a, "Further recordings or results of A");
-  command->add_option("--b", arguments->files_b, "Further recordings or results of B");
-  command->add_option("--group", arguments->groups, "Group of the manifest or results; give it twice, for A and B")
-      ->expected(1, 2)
-      ->allow_extra_args(false);
-  add_document_options(*command, arguments->document, "text");
-  add_report_option(*command, arguments->document);
-  command->callback([arguments] { run(*arguments); });
+void add_compare_command(CLI::App& program, const std::string& typed_line) {
+  CompareArguments arguments;
+  arguments.document.command_line = typed_line;
+  add_command<CompareArguments>(program, "compare", "Compares two recordings, groups of repeats, or results",
+                                add_options, run, arguments);
 }

@@ -27,21 +27,13 @@ std::optional<std::string> speed_for(const RecordingArguments& arguments, std::s
   if (speeds.empty()) return std::nullopt;
   if (speeds.size() == recordings) return speeds[i];
   if (speeds.size() == 1) return speeds.front();
-  throw Failure(ExitCode::WrongUsage, fmt::format("--speed is given {} times for {} recordings: give it once, or once "
-                                                  "for each in their order",
-                                                  speeds.size(), recordings));
+  refuse("--speed is given {} times for {} recordings: give it once, or once for each in their order", speeds.size(),
+         recordings);
 }
 
 bool differ(double stated, double drafted) {
   constexpr double kRounding = 0.01;
   return std::abs(stated - drafted) > kRounding * drafted;
-}
-
-[[noreturn]] void refuse_without_speed(const slipfit::DraftEntry& entry) {
-  throw Failure(ExitCode::WrongUsage,
-                fmt::format("'{}': no speed in a column or in the file's name; give --speed, once for all or once for "
-                            "each, or draft a manifest ({} --out runs.csv) and fill it in",
-                            entry.file.string(), shell_line({"slipfit", "manifest", entry.file.string()})));
 }
 
 }  // namespace
@@ -50,16 +42,34 @@ bool is_manifest(const std::string& file) {
   return slipfit::ManifestReader::open(file).ok();
 }
 
-void notify_of_replaced(const slipfit::Conditions& stated, const slipfit::DraftEntry& drafted, const Notify& notify) {
+std::vector<slipfit::ManifestEntry> manifest_entries(const std::string& manifest,
+                                                     const std::optional<std::string>& group,
+                                                     const std::vector<std::string>& only) {
+  const std::vector<slipfit::ManifestEntry> entries = value_or_fail(slipfit::read_manifest_group(manifest, group));
+  if (only.empty()) return entries;
+  std::vector<slipfit::ManifestEntry> chosen;
+  for (const std::string& id : only) {
+    const auto entry = std::ranges::find(entries, id, &slipfit::ManifestEntry::id);
+    if (entry == entries.end()) {
+      refuse("{}: no recording '{}'{}, named by --only", manifest, id, group ? " in group '" + *group + "'" : "");
+    }
+    chosen.push_back(*entry);
+  }
+  return chosen;
+}
+
+void notify_of_replaced(const slipfit::Conditions& stated, const slipfit::DraftEntry& drafted,
+                        const DocumentOptions& document) {
   const std::string file = drafted.file.string();
   const double speed_m_per_s = stated.speed_m_per_s;
   if (drafted.speed_m_per_s && speed_m_per_s > 0.0 && differ(speed_m_per_s, *drafted.speed_m_per_s)) {
-    notify(fmt::format("'{}': the file or its name states {:.4g} m/s, but --speed states {:.4g} m/s, which is used",
-                       file, *drafted.speed_m_per_s, speed_m_per_s));
+    document.notify(
+        fmt::format("'{}': the file or its name states {:.4g} m/s, but --speed states {:.4g} m/s, which is used", file,
+                    *drafted.speed_m_per_s, speed_m_per_s));
   }
   const auto& load_N = stated.normal_force_N;
   if (drafted.normal_force_N && load_N && differ(*load_N, *drafted.normal_force_N)) {
-    notify(
+    document.notify(
         fmt::format("'{}': the file or its name states a normal force of {:.4g} N, but --normal-force states {:.4g} N, "
                     "which is used",
                     file, *drafted.normal_force_N, *load_N));
@@ -74,18 +84,18 @@ void check_found(const slipfit::ManifestDraft& draft) {
 }
 
 slipfit::ManifestDraft draft_of(const std::vector<std::string>& paths, const slipfit::ReadOptions& options,
-                                const Notify& notify) {
+                                const DocumentOptions& document) {
   slipfit::ManifestDraft draft = slipfit::draft_manifest({paths.begin(), paths.end()}, options);
   for (const slipfit::Error& error : draft.skipped) {
     if (is_named(paths, error)) throw Failure(ExitCode::BadRecording, error);
   }
   check_found(draft);
-  for (const slipfit::Error& error : draft.skipped) notify("left out: " + error.message);
+  for (const slipfit::Error& error : draft.skipped) document.notify("left out: " + error.message);
   return draft;
 }
 
 std::vector<slipfit::ManifestEntry> entries_of(const slipfit::ManifestDraft& draft, const RecordingArguments& arguments,
-                                               const Notify& notify) {
+                                               const DocumentOptions& document) {
   std::vector<slipfit::ManifestEntry> entries;
   const std::size_t count = draft.entries.size();
   for (std::size_t i = 0; i < count; ++i) {
@@ -93,7 +103,7 @@ std::vector<slipfit::ManifestEntry> entries_of(const slipfit::ManifestDraft& dra
     const std::optional<std::string> stated = speed_for(arguments, i, count);
     const bool is_filled = !stated && drafted.speed_m_per_s;
     slipfit::ManifestEntry entry = entry_at(arguments, is_filled ? fmt::format("{}", *drafted.speed_m_per_s) : stated);
-    notify_of_replaced(entry.conditions, drafted, notify);
+    notify_of_replaced(entry.conditions, drafted, document);
     entry.id = drafted.id;
     entry.file = drafted.file;
     entry.group = drafted.group;
@@ -102,7 +112,12 @@ std::vector<slipfit::ManifestEntry> entries_of(const slipfit::ManifestDraft& dra
     if (drafted.step) entry.options.step = drafted.step;
     if (drafted.sheet) entry.options.sheet = drafted.sheet;
     if (drafted.variable) entry.options.variable = drafted.variable;
-    if (!(entry.conditions.speed_m_per_s > 0.0) && !arguments.speed_is_optional) refuse_without_speed(drafted);
+    if (!(entry.conditions.speed_m_per_s > 0.0) && !arguments.speed_is_optional) {
+      refuse(
+          "'{}': no speed in a column or in the file's name; give --speed, once for all or once for each, or draft a "
+          "manifest ({} --out runs.csv) and fill it in",
+          drafted.file.string(), manifest_command({drafted.file.string()}));
+    }
     entries.push_back(std::move(entry));
   }
   return entries;

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <fmt/format.h>
+
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "slipfit/core/result.hpp"
 
@@ -28,3 +31,16 @@ class Failure : public std::runtime_error {
   ExitCode exit_;
   std::string code_ = "wrong_usage";
 };
+
+/// Throws Failure(WrongUsage) with this message.
+template <class... Values>
+[[noreturn]] void refuse(fmt::format_string<Values...> message, Values&&... values) {
+  throw Failure(ExitCode::WrongUsage, fmt::format(message, std::forward<Values>(values)...));
+}
+
+/// Returns the value; an error is thrown as a Failure.
+template <class Value>
+Value value_or_fail(slipfit::Result<Value> result, ExitCode exit = ExitCode::WrongUsage) {
+  if (!result) throw Failure(exit, result.error());
+  return std::move(result).value();
+}

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,8 +17,13 @@ namespace {
 
 struct FiguresArguments {
   std::optional<std::string> folder;
-  bool quiet = false;
+  DocumentOptions messages;
 };
+
+void add_options(CLI::App& command, FiguresArguments& arguments) {
+  command.add_option("--out", arguments.folder, "Write into this folder; created if it does not exist");
+  add_quiet_option(command, arguments.messages);
+}
 
 void run(const FiguresArguments& arguments) {
   const std::string folder = required(arguments.folder, "--out", "the folder for the figures");
@@ -27,16 +31,12 @@ void run(const FiguresArguments& arguments) {
   const std::vector<slipfit::FigureFile> files = slipfit::paper_figures();
   for (const slipfit::FigureFile& file : files)
     write_file({"--out", (fs::path(folder) / file.name).string()}, file.content);
-  if (!arguments.quiet) say(fmt::format("wrote {} files to '{}'", files.size(), folder));
+  arguments.messages.notify(fmt::format("wrote {} files to '{}'", files.size(), folder));
 }
 
 }  // namespace
 
-void add_figures_command(CLI::App& program) {
-  CLI::App* const command =
-      program.add_subcommand("figures", "Writes figures 2 to 8 of the paper and the stability map (CSV and SVG)");
-  const auto arguments = std::make_shared<FiguresArguments>();
-  command->add_option("--out", arguments->folder, "Write into this folder; created if it does not exist");
-  command->add_flag("--quiet", arguments->quiet, "Print only errors on standard error");
-  command->callback([arguments] { run(*arguments); });
+void add_figures_command(CLI::App& program, const std::string& /*typed_line*/) {
+  add_command<FiguresArguments>(
+      program, "figures", "Writes figures 2 to 8 of the paper and the stability map (CSV and SVG)", add_options, run);
 }

@@ -13,7 +13,7 @@
 #include <memory>
 #include <system_error>
 
-#include "close_file.hpp"
+#include "document_file.hpp"
 #include "failure.hpp"
 #include "slipfit/core/printable.hpp"
 
@@ -21,11 +21,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-using File = std::unique_ptr<std::FILE, CloseFile>;
-
 [[noreturn]] void cannot_write(const OutputFile& output, int error_number) {
-  throw Failure(ExitCode::WrongUsage,
-                fmt::format("{}: cannot write '{}': {}", output.option, output.file, std::strerror(error_number)));
+  refuse("{}: cannot write '{}': {}", output.option, output.file, std::strerror(error_number));
 }
 
 /// Returns 0, or the errno of the step that failed.
@@ -60,13 +57,11 @@ void check_place(const OutputFile& output) {
   std::error_code ignored;
   const fs::path path(output.file);
   if (output.file.empty() || fs::is_directory(path, ignored)) {
-    throw Failure(ExitCode::WrongUsage,
-                  fmt::format("{}: '{}' is a folder, expected a file name", output.option, output.file));
+    refuse("{}: '{}' is a folder, expected a file name", output.option, output.file);
   }
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
   if (!fs::is_directory(folder, ignored)) {
-    throw Failure(ExitCode::WrongUsage, fmt::format("{}: cannot write '{}': the folder '{}' does not exist",
-                                                    output.option, output.file, folder.string()));
+    refuse("{}: cannot write '{}': the folder '{}' does not exist", output.option, output.file, folder.string());
   }
 }
 
@@ -77,9 +72,17 @@ bool DocumentOptions::has(const std::string& option) const {
                      [&option](const OutputFile& file) { return file.option == option; });
 }
 
+void DocumentOptions::notify(const std::string& message) const {
+  if (!quiet) say(message);
+}
+
 void add_document_options(CLI::App& command, DocumentOptions& options, const std::string& text) {
   command.add_flag("--json", options.json, "Print one JSON document instead of the " + text);
   add_output_option(command, options, "--out", "Write the " + text + " or the JSON document to this file");
+  add_quiet_option(command, options);
+}
+
+void add_quiet_option(CLI::App& command, DocumentOptions& options) {
   command.add_flag("--quiet", options.quiet, "Print only errors on standard error");
 }
 
@@ -88,16 +91,16 @@ void add_output_option(CLI::App& command, DocumentOptions& options, const std::s
   command.add_option_function<std::string>(
       option,
       [&options, option](const std::string& file) {
+        if (option == "--report") check_report_name(file);
         options.outputs.push_back({option, file});
       },
       help);
 }
 
 void refuse_report_name(const std::string& file) {
-  throw Failure(ExitCode::WrongUsage,
-                fmt::format("--report: '{}' is not the name of an HTML page; use '{}'{}", file,
-                            fs::path(file).replace_extension(".html").string(),
-                            fs::path(file).extension() == ".pdf" ? " and print it to PDF from the browser" : ""));
+  refuse("--report: '{}' is not the name of an HTML page; use '{}'{}", file,
+         fs::path(file).replace_extension(".html").string(),
+         fs::path(file).extension() == ".pdf" ? " and print it to PDF from the browser" : "");
 }
 
 void check_report_name(const std::string& file) {
@@ -106,13 +109,7 @@ void check_report_name(const std::string& file) {
 }
 
 void add_report_option(CLI::App& command, DocumentOptions& options) {
-  command.add_option_function<std::string>(
-      "--report",
-      [&options](const std::string& file) {
-        check_report_name(file);
-        options.outputs.push_back({"--report", file});
-      },
-      "Write a page with charts (one HTML file)");
+  add_output_option(command, options, "--report", "Write a page with charts (one HTML file)");
 }
 
 void check_outputs(const std::vector<OutputFile>& outputs, const std::string& input,
@@ -120,13 +117,12 @@ void check_outputs(const std::vector<OutputFile>& outputs, const std::string& in
   for (std::size_t i = 0; i < outputs.size(); ++i) {
     check_place(outputs[i]);
     if (!input.empty() && same_file(outputs[i].file, input)) {
-      throw Failure(ExitCode::WrongUsage, fmt::format("{}: '{}' is the {} itself, choose another file",
-                                                      outputs[i].option, outputs[i].file, words_for_input));
+      refuse("{}: '{}' is the {} itself, choose another file", outputs[i].option, outputs[i].file, words_for_input);
     }
     for (std::size_t j = 0; j < i; ++j) {
       if (!same_file(outputs[i].file, outputs[j].file)) continue;
-      throw Failure(ExitCode::WrongUsage, fmt::format("{} and {} name the same file '{}', choose different files",
-                                                      outputs[j].option, outputs[i].option, outputs[i].file));
+      refuse("{} and {} name the same file '{}', choose different files", outputs[j].option, outputs[i].option,
+             outputs[i].file);
     }
   }
 }
@@ -134,14 +130,9 @@ void check_outputs(const std::vector<OutputFile>& outputs, const std::string& in
 void make_folder(const OutputFile& folder) {
   std::error_code error;
   if (fs::is_directory(folder.file, error)) return;
-  if (fs::exists(folder.file, error)) {
-    throw Failure(ExitCode::WrongUsage,
-                  fmt::format("{}: '{}' is a file, expected a folder", folder.option, folder.file));
-  }
+  if (fs::exists(folder.file, error)) refuse("{}: '{}' is a file, expected a folder", folder.option, folder.file);
   fs::create_directory(folder.file, error);
-  if (!error) return;
-  throw Failure(ExitCode::WrongUsage,
-                fmt::format("{}: cannot create the folder '{}': {}", folder.option, folder.file, error.message()));
+  if (error) refuse("{}: cannot create the folder '{}': {}", folder.option, folder.file, error.message());
 }
 
 void write_file(const OutputFile& output, const std::string& content) {
@@ -173,26 +164,43 @@ void write_results(const DocumentOptions& options,
   };
   for (const OutputFile& output : options.outputs) {
     write_file(output, text_of(output.option));
-    if (!options.quiet) say(fmt::format("wrote '{}'", output.file));
+    options.notify(fmt::format("wrote '{}'", output.file));
   }
   if (!options.has("--out")) write_standard_output(text_of("--out"));
+}
+
+void write_each(const DocumentOptions& options, std::size_t count,
+                const std::function<slipfit::Result<std::string>(std::size_t)>& document_of,
+                ExitCode (*exit_code_for)(const std::string& code)) {
+  const bool is_array = options.json && count > 1;
+  std::string content;
+  std::size_t written = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const slipfit::Result<std::string> document = document_of(i);
+    if (!document) {
+      if (count == 1) throw Failure(exit_code_for(document.error().code), document.error());
+      say(document.error().message);
+      continue;
+    }
+    if (written++ > 0) content += options.json ? ",\n" : "\n";
+    content += is_array ? document.value().substr(0, document.value().find_last_not_of('\n') + 1) : document.value();
+  }
+  if (written == 0) throw Failure(ExitCode::BadRecording, fmt::format("none of {} recordings can be read", count));
+  write_results(options, [&](const std::string&) { return is_array ? "[" + content + "]\n" : content; });
+  if (written == count) return;
+  throw Failure(ExitCode::RecordingsFailed, fmt::format("{} of {} recordings failed", count - written, count));
 }
 
 void write_standard_output(const std::string& content) {
   const bool written = std::fwrite(content.data(), 1, content.size(), stdout) == content.size();
   if (!written || std::fflush(stdout) != 0) {
-    throw Failure(ExitCode::WrongUsage, fmt::format("cannot write to standard output: {}", std::strerror(errno)));
+    refuse("cannot write to standard output: {}", std::strerror(errno));
   }
 }
 
 void say(const std::string& message) {
   const std::string line = "slipfit: " + slipfit::printable(message) + "\n";
   (void)std::fwrite(line.data(), 1, line.size(), stderr);
-}
-
-std::function<void(const std::string&)> notifier(const DocumentOptions& options) {
-  if (options.quiet) return [](const std::string&) {};
-  return say;
 }
 
 std::string shell_line(const std::vector<std::string>& words) {
@@ -206,4 +214,10 @@ std::string shell_line(const std::vector<std::string>& words) {
     line += is_plain ? " " + word : " '" + quoted + "'";
   }
   return line;
+}
+
+std::string manifest_command(const std::vector<std::string>& paths) {
+  std::vector<std::string> words{"slipfit", "manifest"};
+  words.insert(words.end(), paths.begin(), paths.end());
+  return shell_line(words);
 }

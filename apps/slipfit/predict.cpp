@@ -1,8 +1,5 @@
 #include "slipfit/predict/prediction.hpp"
 
-#include <fmt/format.h>
-
-#include <memory>
 #include <optional>
 #include <string>
 
@@ -41,12 +38,9 @@ void add_options(CLI::App& command, PredictArguments& arguments) {
 
 slipfit::FitDocument document_from(const PredictArguments& arguments) {
   const std::string& file = *arguments.file;
-  auto document = slipfit::read_fit_document(document_text(file), file);
-  if (document && arguments.normal_force_N) {
-    document = slipfit::at_load(std::move(document).value(), *arguments.normal_force_N, file);
-  }
-  if (!document) throw Failure(ExitCode::WrongUsage, document.error().message);
-  return std::move(document).value();
+  slipfit::FitDocument document = value_or_fail(slipfit::read_fit_document(document_text(file), file));
+  if (!arguments.normal_force_N) return document;
+  return value_or_fail(slipfit::at_load(std::move(document), *arguments.normal_force_N, file));
 }
 
 /// A model, and where it comes from.
@@ -58,8 +52,7 @@ struct Basis {
 Basis basis_from(const PredictArguments& arguments) {
   const bool stated = model_given(arguments.model);
   if (arguments.file && stated) {
-    throw Failure(ExitCode::WrongUsage,
-                  fmt::format("give either '{}' or the model options (--stiffness, ...), not both", *arguments.file));
+    refuse("give either '{}' or the model options (--stiffness, ...), not both", *arguments.file);
   }
   if (arguments.file) {
     slipfit::FitDocument document = document_from(arguments);
@@ -67,9 +60,9 @@ Basis basis_from(const PredictArguments& arguments) {
             {*arguments.file, std::move(document.conditional_on), {}, std::move(document.warnings)}};
   }
   if (!stated) {
-    throw Failure(ExitCode::WrongUsage,
-                  "the model is missing: give FIT.json (from slipfit fit --json --out FIT.json), or --stiffness, "
-                  "--natural-frequency, --damping-ratio, --static-friction and --kinetic-friction");
+    refuse(
+        "the model is missing: give FIT.json (from slipfit fit --json --out FIT.json), or --stiffness, "
+        "--natural-frequency, --damping-ratio, --static-friction and --kinetic-friction");
   }
   const Model model = model_from(arguments.model);
   slipfit::PredictionModel prediction = slipfit::stated_model(model.slider, model.friction);
@@ -82,13 +75,12 @@ Basis basis_from(const PredictArguments& arguments) {
 }
 
 void run(const PredictArguments& arguments) {
-  const auto speeds = slipfit::parse_speeds(
-      required(arguments.speeds, "--speeds", "A:B:N or a list, for example --speeds 1mm/s:1m/s:50"));
-  if (!speeds) throw Failure(ExitCode::WrongUsage, speeds.error().message);
+  const auto speeds = value_or_fail(slipfit::parse_speeds(
+      required(arguments.speeds, "--speeds", "A:B:N or a list, for example --speeds 1mm/s:1m/s:50")));
   check_outputs(arguments.document.outputs, arguments.file.value_or(""), "fit document");
   Basis basis = basis_from(arguments);
-  basis.source.speed_unit = speeds.value().unit;
-  const slipfit::Prediction prediction = slipfit::predict_at(basis.model, speeds.value().speeds_m_per_s);
+  basis.source.speed_unit = speeds.unit;
+  const slipfit::Prediction prediction = slipfit::predict_at(basis.model, speeds.speeds_m_per_s);
   write_results(arguments.document, [&](const std::string& option) {
     if (option == "--csv") return slipfit::prediction_to_csv(prediction);
     return arguments.document.json ? slipfit::to_json(prediction, basis.source) + "\n"
@@ -98,10 +90,8 @@ void run(const PredictArguments& arguments) {
 
 }  // namespace
 
-void add_predict_command(CLI::App& program) {
-  CLI::App* const command = program.add_subcommand(
-      "predict", "Predicts period, frequency and spacing at other speeds and the end of stick-slip");
-  const auto arguments = std::make_shared<PredictArguments>();
-  add_options(*command, *arguments);
-  command->callback([arguments] { run(*arguments); });
+void add_predict_command(CLI::App& program, const std::string& /*typed_line*/) {
+  add_command<PredictArguments>(program, "predict",
+                                "Predicts period, frequency and spacing at other speeds and the end of stick-slip",
+                                add_options, run);
 }

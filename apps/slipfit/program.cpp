@@ -80,10 +80,10 @@ void check_command(const CLI::App& program, const std::string& first_argument) {
     names.push_back(command->get_name());
     known += (known.empty() ? "" : ", ") + names.back();
   }
-  if (first_argument.empty()) throw Failure(ExitCode::WrongUsage, "a command is missing: one of " + known);
+  if (first_argument.empty()) refuse("a command is missing: one of {}", known);
   if (first_argument.front() == '-') return;
-  throw Failure(ExitCode::WrongUsage, "unknown command '" + first_argument + "'" + suggestion(first_argument, names) +
-                                          ", expected a file or one of " + known);
+  refuse("unknown command '{}'{}, expected a file or one of {}", first_argument, suggestion(first_argument, names),
+         known);
 }
 
 bool is_unit(const std::string& text) {
@@ -118,11 +118,6 @@ struct Command {
   std::string_view examples;  ///< One command line each.
 };
 
-template <void (*Add)(CLI::App&)>
-void without_line(CLI::App& program, const std::string& /*typed_line*/) {
-  Add(program);
-}
-
 /// All commands in the order of the help.
 constexpr std::array kCommands = std::to_array<Command>({
     {"analyze", add_analyze_command,
@@ -132,26 +127,26 @@ constexpr std::array kCommands = std::to_array<Command>({
      "  slipfit fit run7.csv --speed 10mm/s\n"
      "  slipfit fit run7.csv --speed 10mm/s --normal-force 5N --zero 0.02 --report run7.html\n"
      "  slipfit fit --joint sweep.csv --group dry --json --out dry.json\n"},
-    {"info", without_line<add_info_command>, "  slipfit info run7.csv\n"},
-    {"simulate", without_line<add_simulate_command>,
+    {"info", add_info_command, "  slipfit info run7.csv\n"},
+    {"simulate", add_simulate_command,
      "  slipfit simulate --stiffness 5000 --natural-frequency 900 --damping-ratio 0.05 --static-friction 4\n"
      "      --kinetic-friction 3 --speed 10mm/s --duration 2 --sample-rate 5kHz --noise 0.015 --out run.csv\n"},
-    {"predict", without_line<add_predict_command>,
+    {"predict", add_predict_command,
      "  slipfit predict fit.json --speeds 1mm/s:1m/s:20\n"
      "  slipfit predict fit.json --speeds 5mm/s,10mm/s --csv prediction.csv\n"},
-    {"plan", without_line<add_plan_command>, "  slipfit plan fit.json --for damping_ratio\n"},
-    {"figures", without_line<add_figures_command>, "  slipfit figures --out figures\n"},
+    {"plan", add_plan_command, "  slipfit plan fit.json --for damping_ratio\n"},
+    {"figures", add_figures_command, "  slipfit figures --out figures\n"},
     {"compare", add_compare_command,
      "  slipfit compare dry.csv wet.csv --speed 10mm/s\n"
      "  slipfit compare runs.csv --group dry --group wet --report comparison.html\n"},
 #ifndef SLIPFIT_SINGLE_PROCESS
-    {"batch", without_line<add_batch_command>,
+    {"batch", add_batch_command,
      "  slipfit batch runs.csv --out results\n"
      "  slipfit batch *.csv --out results --speed 10mm/s --report results/index.html\n"
      "  slipfit batch runs.csv --out results --resume\n"},
-    {"merge", without_line<add_merge_command>, "  slipfit merge shard1 shard2 --out results\n"},
+    {"merge", add_merge_command, "  slipfit merge shard1 shard2 --out results\n"},
 #endif
-    {"manifest", without_line<add_manifest_command>, "  slipfit manifest recordings --out runs.csv\n"},
+    {"manifest", add_manifest_command, "  slipfit manifest recordings --out runs.csv\n"},
     {"surface", add_surface_command,
      "  slipfit surface profile.csv\n"
      "  slipfit surface track.png --pixel 2.1um --along x\n"},

@@ -1,38 +1,22 @@
 #include "quantities.hpp"
 
 #include <algorithm>
-#include <utility>
 
 #include "slipfit/fit/parameter.hpp"
 
 using slipfit::Dimension;
 
-namespace {
-
-[[noreturn]] void refuse(const std::string& option, const std::string& message) {
-  throw Failure(ExitCode::WrongUsage, fmt::format("{}: {}", option, message));
-}
-
-double within(double value, Limits limits, const std::string& option, const std::string& text) {
-  if (limits == Limits::AboveZero && !(value > 0.0)) refuse(option, fmt::format("'{}' is not above zero", text));
-  if (limits == Limits::NotNegative && !(value >= 0.0)) refuse(option, fmt::format("'{}' is below zero", text));
-  return value;
-}
-
-}  // namespace
-
-double quantity(const std::string& option, const std::string& text, Dimension dimension, Limits limits) {
-  const slipfit::Result<double> parsed = slipfit::parse_quantity(text, dimension);
-  if (!parsed) refuse(option, parsed.error().message);
-  return within(parsed.value(), limits, option, text);
-}
-
-double plain_number(const std::string& option, const std::string& text, const std::string& unit, Limits limits) {
-  const auto value = slipfit::parse_quantity(text, Dimension::Dimensionless);
-  if (!value || !slipfit::unit_in(text).empty()) {
-    refuse(option, fmt::format("bad number '{}', expected a plain number ({})", text, unit));
+double quantity(const std::string& option, const std::string& text, Kind kind, Limits limits) {
+  const Dimension* const dimension = std::get_if<Dimension>(&kind);
+  const auto parsed = slipfit::parse_quantity(text, dimension != nullptr ? *dimension : Dimension::Dimensionless);
+  if (dimension == nullptr && (!parsed || !slipfit::unit_in(text).empty())) {
+    refuse("{}: bad number '{}', expected a plain number ({})", option, text, std::get<const char*>(kind));
   }
-  return within(value.value(), limits, option, text);
+  if (!parsed) refuse("{}: {}", option, parsed.error().message);
+  const double value = parsed.value();
+  if (limits == Limits::AboveZero && !(value > 0.0)) refuse("{}: '{}' is not above zero", option, text);
+  if (limits == Limits::NotNegative && !(value >= 0.0)) refuse("{}: '{}' is below zero", option, text);
+  return value;
 }
 
 std::string key_of_parameter(const std::string& text) {
@@ -51,7 +35,5 @@ slipfit::FitOptions fit_options_from(const std::string& tier, const std::vector<
     const std::size_t end = std::min(text.find('='), text.size());
     with_keys.push_back(key_of_parameter(text.substr(0, end)) + text.substr(end));
   }
-  auto options = slipfit::parse_fit_options(tier, with_keys, kind);
-  if (!options) throw Failure(ExitCode::WrongUsage, options.error().message);
-  return std::move(options).value();
+  return value_or_fail(slipfit::parse_fit_options(tier, with_keys, kind));
 }

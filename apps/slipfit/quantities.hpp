@@ -5,6 +5,7 @@
 
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "failure.hpp"
@@ -16,40 +17,24 @@
 
 enum class Limits { None, AboveZero, NotNegative };
 
-/// A number (SI) or a number with a unit.
-double quantity(const std::string& option, const std::string& text, slipfit::Dimension dimension,
-                Limits limits = Limits::None);
-
-/// A finite number without a unit; `unit` is for the message.
-double plain_number(const std::string& option, const std::string& text, const std::string& unit,
-                    Limits limits = Limits::None);
+/// A number (SI) or a number with a unit of this dimension; or a plain number, whose unit messages name.
+using Kind = std::variant<slipfit::Dimension, const char*>;
+double quantity(const std::string& option, const std::string& text, Kind kind, Limits limits = Limits::None);
 
 /// An option of a `quantity`; the target is a double, or a std::optional of one.
 template <class Target>
-CLI::Option* add_quantity(CLI::App& command, const std::string& option, Target& target, slipfit::Dimension dimension,
-                          Limits limits, const std::string& help) {
+CLI::Option* add_quantity(CLI::App& command, const std::string& option, Target& target, Kind kind, Limits limits,
+                          const std::string& help) {
   return command.add_option_function<std::string>(
       option,
-      [&target, option, dimension, limits](const std::string& text) {
-        target = quantity(option, text, dimension, limits);
-      },
-      help);
-}
-
-/// An option of a `plain_number`.
-template <class Target>
-CLI::Option* add_number(CLI::App& command, const std::string& option, Target& target, const std::string& unit,
-                        Limits limits, const std::string& help) {
-  return command.add_option_function<std::string>(
-      option,
-      [&target, option, unit, limits](const std::string& text) { target = plain_number(option, text, unit, limits); },
+      [&target, option, kind, limits](const std::string& text) { target = quantity(option, text, kind, limits); },
       help);
 }
 
 /// The value, or Failure(WrongUsage) that the option is missing; `meaning` says what to give.
 template <class Value>
 const Value& required(const std::optional<Value>& value, const std::string& option, const std::string& meaning) {
-  if (!value) throw Failure(ExitCode::WrongUsage, fmt::format("{} is missing: give {}", option, meaning));
+  if (!value) refuse("{} is missing: give {}", option, meaning);
   return *value;
 }
 

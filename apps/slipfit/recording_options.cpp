@@ -1,7 +1,5 @@
 #include "recording_options.hpp"
 
-#include <fmt/format.h>
-
 #include "failure.hpp"
 
 using slipfit::RecordingOption;
@@ -44,7 +42,7 @@ std::vector<RecordingOption> given_options(const RecordingArguments& arguments) 
 
 const std::string& only_file(const RecordingArguments& arguments) {
   if (arguments.files.size() == 1) return arguments.files.front();
-  throw Failure(ExitCode::WrongUsage, fmt::format("'{}' is a second file, expected one", arguments.files.at(1)));
+  refuse("'{}' is a second file, expected one", arguments.files.at(1));
 }
 
 slipfit::ManifestEntry entry_at(const RecordingArguments& arguments, const std::optional<std::string>& speed) {
@@ -54,16 +52,13 @@ slipfit::ManifestEntry entry_at(const RecordingArguments& arguments, const std::
     if (column != "speed") cells.push_back({column, arguments.said.at(column), std::string(option.name())});
   }
   if (speed) cells.push_back({"speed", *speed, "--speed"});
-  auto entry = slipfit::entry_from_cells(std::move(cells));
-  if (!entry) throw Failure(ExitCode::WrongUsage, entry.error().message);
-  slipfit::ManifestEntry taken = std::move(entry).value();
-  taken.conditions.speed_is_known = !arguments.speed_is_optional;
-  return taken;
+  slipfit::ManifestEntry entry = value_or_fail(slipfit::entry_from_cells(std::move(cells)));
+  entry.conditions.speed_is_known = !arguments.speed_is_optional;
+  return entry;
 }
 
 slipfit::ManifestEntry entry_from(const RecordingArguments& arguments) {
-  if (arguments.speeds.size() > 1)
-    throw Failure(ExitCode::WrongUsage, "--speed: one recording has one speed, give it once");
+  if (arguments.speeds.size() > 1) refuse("--speed: one recording has one speed, give it once");
   return entry_at(arguments, arguments.speeds.empty() ? std::nullopt : std::optional(arguments.speeds.front()));
 }
 

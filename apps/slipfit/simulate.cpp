@@ -1,9 +1,7 @@
 #include <fmt/format.h>
 
-#include <memory>
 #include <optional>
 #include <string>
-#include <utility>
 
 #include "commands.hpp"
 #include "failure.hpp"
@@ -25,8 +23,7 @@ struct SimulateArguments {
   RecordingArguments recording;  ///< speed and view
   std::optional<double> duration_s, sample_rate_Hz;
   slipfit::SimulationOptions options;  ///< without these
-  std::optional<std::string> out;
-  bool quiet = false;
+  DocumentOptions document;
 };
 
 void add_options(CLI::App& command, SimulateArguments& arguments) {
@@ -46,7 +43,7 @@ void add_options(CLI::App& command, SimulateArguments& arguments) {
       ->default_str("0");
   add_quantity(command, "--offset", options.offset_N, Dimension::Force, None, "Offset added to the force (N)")
       ->default_str("0");
-  add_number(command, "--drift", options.drift_N_per_s, "N/s", None, "Drift added to the force (N/s)")
+  add_quantity(command, "--drift", options.drift_N_per_s, "N/s", None, "Drift added to the force (N/s)")
       ->default_str("0");
   add_quantity(command, "--hum", options.hum_N, Dimension::Force, NotNegative, "Amplitude of mains hum (N)")
       ->default_str("0");
@@ -54,8 +51,8 @@ void add_options(CLI::App& command, SimulateArguments& arguments) {
                "Mains frequency (Hz)")
       ->default_str("50");
   command.add_option("--seed", options.seed, "Seed of the random numbers")->capture_default_str();
-  command.add_option("--out", arguments.out, "Write to this file instead of standard output");
-  command.add_flag("--quiet", arguments.quiet, "Print only errors on standard error");
+  add_output_option(command, arguments.document, "--out", "Write to this file instead of standard output");
+  add_quiet_option(command, arguments.document);
 }
 
 slipfit::SimulationOptions options_from(const SimulateArguments& arguments, slipfit::ForceView view) {
@@ -64,8 +61,8 @@ slipfit::SimulationOptions options_from(const SimulateArguments& arguments, slip
   options.duration_s = required(arguments.duration_s, "--duration", "the length of the recording (s)");
   options.sample_rate_Hz = required(arguments.sample_rate_Hz, "--sample-rate", "the samples a second (Hz)");
   if (options.duration_s * options.sample_rate_Hz > kMostSamples) {
-    throw Failure(ExitCode::WrongUsage, fmt::format("--duration times --sample-rate is {:.3g} samples, at most {:.0e}",
-                                                    options.duration_s * options.sample_rate_Hz, kMostSamples));
+    refuse("--duration times --sample-rate is {:.3g} samples, at most {:.0e}",
+           options.duration_s * options.sample_rate_Hz, kMostSamples);
   }
   return options;
 }
@@ -82,37 +79,28 @@ std::string comment_for(const Model& model, double speed_m_per_s, const slipfit:
       model.friction.static_N(), kinetic, speed_m_per_s, options.seed);
 }
 
-slipfit::SimulatedTrace simulated(const Model& model, double speed_m_per_s, const slipfit::SimulationOptions& options) {
-  if (!model.velocity_friction) return slipfit::simulate(model.slider, model.friction, speed_m_per_s, options);
-  auto trace = slipfit::simulate(model.slider, *model.velocity_friction, speed_m_per_s, options);
-  if (!trace) throw Failure(ExitCode::WrongUsage, trace.error());
-  return std::move(trace).value();
-}
-
 void run(const SimulateArguments& arguments) {
   const Model model = model_from(arguments.model);
   if (arguments.recording.speeds.empty()) {
-    throw Failure(ExitCode::WrongUsage, "--speed is missing: give the driving speed, for example --speed 10mm/s");
+    refuse("--speed is missing: give the driving speed, for example --speed 10mm/s");
   }
   const slipfit::Conditions conditions = entry_from(arguments.recording).conditions;
   const double speed_m_per_s = conditions.speed_m_per_s;
   const slipfit::SimulationOptions options = options_from(arguments, conditions.force_view);
-  if (arguments.out) check_outputs({{"--out", *arguments.out}}, "");
-  const slipfit::SimulatedTrace trace = simulated(model, speed_m_per_s, options);
+  check_outputs(arguments.document.outputs, "");
+  const slipfit::SimulatedTrace trace =
+      model.velocity_friction
+          ? value_or_fail(slipfit::simulate(model.slider, *model.velocity_friction, speed_m_per_s, options))
+          : slipfit::simulate(model.slider, model.friction, speed_m_per_s, options);
   const std::string csv = slipfit::trace_to_csv(trace, comment_for(model, speed_m_per_s, options));
-  if (!arguments.out) {
-    write_standard_output(csv);
-    return;
-  }
-  write_file({"--out", *arguments.out}, csv);
-  if (!arguments.quiet) say(fmt::format("wrote '{}'", *arguments.out));
+  if (arguments.document.outputs.empty()) return write_standard_output(csv);
+  write_file(arguments.document.outputs.back(), csv);
+  arguments.document.notify(fmt::format("wrote '{}'", arguments.document.outputs.back().file));
 }
 
 }  // namespace
 
-void add_simulate_command(CLI::App& program) {
-  CLI::App* const command = program.add_subcommand("simulate", "Simulates a recording of the model, with noise (CSV)");
-  const auto arguments = std::make_shared<SimulateArguments>();
-  add_options(*command, *arguments);
-  command->callback([arguments] { run(*arguments); });
+void add_simulate_command(CLI::App& program, const std::string& /*typed_line*/) {
+  add_command<SimulateArguments>(program, "simulate", "Simulates a recording of the model, with noise (CSV)",
+                                 add_options, run);
 }

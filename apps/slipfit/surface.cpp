@@ -1,4 +1,3 @@
-#include <memory>
 #include <numbers>
 
 #include "commands.hpp"
@@ -13,14 +12,14 @@ namespace {
 struct SurfaceCommand {
   SurfaceArguments surface;
   DocumentOptions document;
-  std::string command_line;
 };
 
 void run_surface(const SurfaceCommand& arguments) {
   check_outputs(arguments.document.outputs, arguments.surface.file);
   const MeasuredSurface measured = measure(arguments.surface);
   write_results(arguments.document, [&](const std::string& option) {
-    if (option == "--report") return slipfit::to_html(measured.profile, measured.surface, arguments.command_line);
+    if (option == "--report")
+      return slipfit::to_html(measured.profile, measured.surface, arguments.document.command_line);
     return arguments.document.json ? slipfit::to_json(measured.profile, measured.surface) + "\n"
                                    : slipfit::to_text(measured.profile, measured.surface);
   });
@@ -29,24 +28,30 @@ void run_surface(const SurfaceCommand& arguments) {
 /// "x", "y", or degrees from the x axis.
 double direction(const std::string& text) {
   if (text == "x") return 0.0;
-  const double degrees = text == "y" ? 90.0 : plain_number("--along", text, "degrees from the x axis (or x, y)");
+  const double degrees = text == "y" ? 90.0 : quantity("--along", text, "degrees from the x axis (or x, y)");
   return degrees * std::numbers::pi / 180.0;
 }
 
 double length_unit_m(const std::string& text) {
   const auto unit = slipfit::parse_unit(text, slipfit::Dimension::Length);
-  if (!unit) throw Failure(ExitCode::WrongUsage, "--unit: " + unit.error().message);
+  if (!unit) refuse("--unit: {}", unit.error().message);
   return unit.value().scale;
+}
+
+void add_options(CLI::App& command, SurfaceCommand& arguments) {
+  command.add_option("FILE", arguments.surface.file, "Profile (text, X3P, SDF) or image (PNG, TIFF, JPEG)")->required();
+  add_profile_options(command, arguments.surface);
+  add_document_options(command, arguments.document, "text");
+  add_report_option(command, arguments.document);
 }
 
 }  // namespace
 
 MeasuredSurface measure(const SurfaceArguments& arguments) {
-  auto profile = slipfit::read_profile(arguments.file, arguments.options);
-  if (!profile) throw Failure(ExitCode::BadRecording, profile.error());
-  auto surface = slipfit::measure_surface(profile.value());
-  if (!surface) throw Failure(ExitCode::BadRecording, surface.error());
-  return {std::move(profile).value(), std::move(surface).value()};
+  slipfit::Profile profile =
+      value_or_fail(slipfit::read_profile(arguments.file, arguments.options), ExitCode::BadRecording);
+  slipfit::Surface surface = value_or_fail(slipfit::measure_surface(profile), ExitCode::BadRecording);
+  return {std::move(profile), std::move(surface)};
 }
 
 void add_profile_options(CLI::App& command, SurfaceArguments& arguments) {
@@ -65,14 +70,9 @@ void add_profile_options(CLI::App& command, SurfaceArguments& arguments) {
   command.add_option("--z-column", options.z_column, "Column of heights: name or 1-based number");
 }
 
-void add_surface_command(CLI::App& program, const std::string& command_line) {
-  CLI::App* const command = program.add_subcommand("surface", "Measures the spacing of the pattern on a worn surface");
-  const auto arguments = std::make_shared<SurfaceCommand>();
-  arguments->command_line = command_line;
-  command->add_option("FILE", arguments->surface.file, "Profile (text, X3P, SDF) or image (PNG, TIFF, JPEG)")
-      ->required();
-  add_profile_options(*command, arguments->surface);
-  add_document_options(*command, arguments->document, "text");
-  add_report_option(*command, arguments->document);
-  command->callback([arguments] { run_surface(*arguments); });
+void add_surface_command(CLI::App& program, const std::string& typed_line) {
+  SurfaceCommand arguments;
+  arguments.document.command_line = typed_line;
+  add_command<SurfaceCommand>(program, "surface", "Measures the spacing of the pattern on a worn surface", add_options,
+                              run_surface, arguments);
 }

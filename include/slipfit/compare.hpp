@@ -8,19 +8,12 @@
 
 #include "slipfit/core/estimate.hpp"
 #include "slipfit/core/result.hpp"
+#include "slipfit/report/quantities.hpp"
 
 namespace slipfit {
 
-/// A number that a comparison includes.
-struct ComparedQuantity {
-  std::string section;  ///< of the document that holds it: "parameters", "derived", ...
-  std::string key;
-  std::string words;
-  std::string unit;  ///< SI
-};
-
 /// Returns all compared quantities: parameters, frequency, spacing and coefficients of friction.
-std::span<const ComparedQuantity> compared_quantities();
+std::span<const Quantity> compared_quantities();
 
 /// A quantity as a fit determines it. If the value is empty, the note states the reason.
 struct ComparedValue {
@@ -71,7 +64,7 @@ struct SideEstimate {
 };
 
 struct QuantityComparison {
-  ComparedQuantity quantity;
+  Quantity quantity;
   SideEstimate a, b;
   std::optional<ComparisonMethod> method;  ///< empty: not compared, the note of the difference says why
   Estimate difference;                     ///< B - A

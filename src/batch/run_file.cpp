@@ -9,7 +9,7 @@
 
 #include "batch/build.hpp"
 #include "batch/files.hpp"
-#include "report/json_sections.hpp"
+#include "report/json_values.hpp"
 #include "slipfit/core/printable.hpp"
 
 namespace slipfit::batch {

@@ -22,13 +22,6 @@ struct SummaryColumn {
   Json::json_pointer place;
 };
 
-/// "_N_s_per_m" of "N s/m": how keys end.
-std::string suffix_of(std::string_view unit) {
-  std::string suffix = unit.empty() ? "" : "_";
-  for (const char c : unit) suffix += c == '/' ? std::string("_per_") : std::string(1, c == ' ' ? '_' : c);
-  return suffix;
-}
-
 /// Value, bounds and standard error of an estimate: "low", "high" and "se" precede the unit in the name.
 void add_estimate(std::vector<SummaryColumn>& columns, const std::string& place, const std::string& name,
                   const std::string& suffix) {

@@ -45,8 +45,8 @@ struct Markers {
   std::vector<Point> points;
 };
 
-/// Text next to a point: `degrees` clockwise from right, `distance_px` bridged by a thin line. Negative: text on the
-/// point.
+/// Text at the right of a point: `degrees` clockwise from right, less than 70 either way, `distance_px` bridged by a
+/// thin line. Negative: text on the point.
 struct Note {
   Point at;
   std::string text;
@@ -66,13 +66,13 @@ struct Axis {
 enum class LegendAt { Above, None };
 
 struct Panel {
-  Axis x;
-  Axis y;
+  Axis x{};
+  Axis y{};
   double height_px = 330.0;
-  std::vector<Area> areas;  ///< later ones cover earlier ones; all under the lines, markers and notes
-  std::vector<Line> lines;
-  std::vector<Markers> markers;
-  std::vector<Note> notes;
+  std::vector<Area> areas{};  ///< later ones cover earlier ones; all under the lines, markers and notes
+  std::vector<Line> lines{};
+  std::vector<Markers> markers{};
+  std::vector<Note> notes{};
   LegendAt legend_at = LegendAt::Above;
 };
 

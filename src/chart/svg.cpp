@@ -6,13 +6,13 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdlib>
+#include <functional>
 #include <iterator>
 #include <limits>
 #include <numbers>
 #include <string>
 #include <string_view>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include "chart/chart.hpp"
@@ -296,19 +296,13 @@ class PanelDrawing {
     const double x = x_of(note.at.x);
     const double y = y_of(note.at.y);
     const double angle = note.degrees * std::numbers::pi / 180.0;
-    const double distance = std::abs(note.distance_px);
-    const double end_x = x + distance * std::cos(angle);
-    const double end_y = y + distance * std::sin(angle);
+    const double end_x = x + std::abs(note.distance_px) * std::cos(angle);
+    const double end_y = y + std::abs(note.distance_px) * std::sin(angle);
     const std::string colour = drawing_.name_of(note.colour);
-    if (note.distance_px > 0.0) {
-      drawing_.line(x, y, end_x, end_y, fmt::format("stroke=\"{}\" stroke-width=\"0.8\"", colour));
-    }
-    const double side = std::cos(angle);
-    const char* anchor = note.distance_px < 0.0 || std::abs(side) < 0.3 ? "middle" : side > 0.0 ? "start" : "end";
-    const double room = std::abs(side) < 0.3 ? 0.0 : side > 0.0 ? 4.0 : -4.0;
-    const double drop = std::abs(side) < 0.3 ? (std::sin(angle) > 0.0 ? 13.0 : -4.0) : 4.0;
-    drawing_.text(end_x + room, end_y + drop, note.text, "note",
-                  fmt::format(" text-anchor=\"{}\" style=\"fill:{}\"", anchor, colour));
+    const bool is_beside = note.distance_px > 0.0;
+    if (is_beside) drawing_.line(x, y, end_x, end_y, fmt::format("stroke=\"{}\" stroke-width=\"0.8\"", colour));
+    drawing_.text(end_x + 4.0, end_y + 4.0, note.text, "note",
+                  fmt::format(" text-anchor=\"{}\" style=\"fill:{}\"", is_beside ? "start" : "middle", colour));
   }
 
   Drawing& drawing_;
@@ -381,42 +375,39 @@ constexpr double kCharacter = 6.6;  // mean width of a letter at 12 px
 constexpr double kSample = 26.0;    // length of a line in the legend
 constexpr double kGap = 22.0;       // between two entries in a row
 
-struct Entry {
-  std::string name;
-  std::variant<const Line*, const Markers*, const Area*> what;
-
-  [[nodiscard]] double width() const { return kSample + kGap + kCharacter * letters_in(name); }
-};
-
-std::vector<Entry> entries_of(const Panel& panel) {
-  std::vector<Entry> entries;
-  if (panel.legend_at == LegendAt::None) return entries;
-  for (const Line& line : panel.lines) entries.push_back({line.name, &line});
-  for (const Markers& markers : panel.markers) entries.push_back({markers.name, &markers});
-  for (const Area& area : panel.areas) entries.push_back({area.name, &area});
-  std::erase_if(entries, [](const Entry& entry) { return entry.name.empty(); });
-  return entries;
-}
-
 struct Spot {
   double x = 0.0;
   double y = 0.0;
 };
 
-/// `spot`: left end of the sample, middle of the row.
-void draw_sample(Drawing& drawing, const Entry& entry, Spot spot, const std::string& id) {
-  if (const auto* line = std::get_if<const Line*>(&entry.what)) {
-    drawing.line(spot.x, spot.y, spot.x + kSample, spot.y, drawing.stroke_style(**line));
-  } else if (const auto* markers = std::get_if<const Markers*>(&entry.what)) {
-    drawing.markers({{spot.x + 0.5 * kSample, spot.y}}, (*markers)->colour, (*markers)->shape);
-  } else if (const auto* area = std::get_if<const Area*>(&entry.what)) {
-    drawing.box(spot.x, spot.y - 6.0, kSample, 12.0, drawing.area_style(**area, id));
-  }
-}
+struct Entry {
+  std::string name;
+  std::function<void(Drawing&, Spot)> draw_sample;  ///< with the left end of the sample, in the middle of the row
 
-void draw_entry(Drawing& drawing, const Entry& entry, Spot spot, const std::string& id) {
-  drawing.text(spot.x + kSample + 7.0, spot.y + 4.0, entry.name, "value");
-  draw_sample(drawing, entry, spot, id);
+  [[nodiscard]] double width() const { return kSample + kGap + kCharacter * letters_in(name); }
+};
+
+/// `id` is that of the picture.
+std::vector<Entry> entries_of(const Panel& panel, const std::string& id) {
+  std::vector<Entry> entries;
+  if (panel.legend_at == LegendAt::None) return entries;
+  for (const Line& line : panel.lines) {
+    entries.push_back({line.name, [&line](Drawing& drawing, Spot at) {
+                         drawing.line(at.x, at.y, at.x + kSample, at.y, drawing.stroke_style(line));
+                       }});
+  }
+  for (const Markers& markers : panel.markers) {
+    entries.push_back({markers.name, [&markers](Drawing& drawing, Spot at) {
+                         drawing.markers({{at.x + 0.5 * kSample, at.y}}, markers.colour, markers.shape);
+                       }});
+  }
+  for (const Area& area : panel.areas) {
+    entries.push_back({area.name, [&area, &id](Drawing& drawing, Spot at) {
+                         drawing.box(at.x, at.y - 6.0, kSample, 12.0, drawing.area_style(area, id));
+                       }});
+  }
+  std::erase_if(entries, [](const Entry& entry) { return entry.name.empty(); });
+  return entries;
 }
 
 /// Returns the position of each entry of a legend above the axes, from the upper left corner; a full row starts another
@@ -435,19 +426,21 @@ std::vector<Spot> rows_of(const std::vector<Entry>& entries, double width_px) {
 }  // namespace
 
 double legend_height_px(const Panel& panel, double width_px) {
-  const std::vector<Entry> entries = entries_of(panel);
+  const std::vector<Entry> entries = entries_of(panel, {});
   if (entries.empty()) return 0.0;
   return rows_of(entries, width_px).back().y + kLineHeight_px + 6.0;
 }
 
 void draw_legend(Drawing& drawing, const Panel& panel, const Frame& frame, const std::string& id) {
-  const std::vector<Entry> entries = entries_of(panel);
+  const std::vector<Entry> entries = entries_of(panel, id);
   if (entries.empty()) return;
   const double top = frame.top - legend_height_px(panel, frame.width) + 0.5 * kLineHeight_px;
   const std::vector<Spot> spots = rows_of(entries, frame.width);
   drawing.raw("<g class=\"entries\">\n");
   for (std::size_t i = 0; i < entries.size(); ++i) {
-    draw_entry(drawing, entries[i], {frame.left + spots[i].x, top + spots[i].y}, id);
+    const Spot spot{frame.left + spots[i].x, top + spots[i].y};
+    drawing.text(spot.x + kSample + 7.0, spot.y + 4.0, entries[i].name, "value");
+    entries[i].draw_sample(drawing, spot);
   }
   drawing.raw("</g>\n");
 }
@@ -458,12 +451,13 @@ std::string to_page_legend(const Chart& chart, const std::string& id) {
   std::vector<std::string> names;
   for (const Panel& panel : chart.panels) {
     if (panel.legend_at != LegendAt::Above) continue;
-    for (const Entry& entry : entries_of(panel)) {
+    const std::string prefix = id + "-";
+    for (const Entry& entry : entries_of(panel, prefix)) {
       if (std::ranges::find(names, entry.name) != names.end()) continue;
       if (&panel != &chart.panels.front()) return {};
       names.push_back(entry.name);
       Drawing sample(Palette::Page);
-      draw_sample(sample, entry, {0.0, 0.5 * kHeight}, id + "-");
+      entry.draw_sample(sample, {0.0, 0.5 * kHeight});
       rows += fmt::format("<li><svg width=\"{0:.0f}\" height=\"{1:.0f}\" aria-hidden=\"true\">{2}</svg>{3}</li>\n",
                           kSample, kHeight, sample.svg(), escaped(entry.name));
     }

@@ -9,7 +9,6 @@
 
 #include "compare/statistics.hpp"
 #include "core/unknown.hpp"
-#include "report/document/check_document.hpp"
 #include "report/document/json_node.hpp"
 #include "report/quantity_rows.hpp"
 
@@ -65,7 +64,7 @@ std::string why_not_compared(const SideValues& a, const SideValues& b) {
   return b.known.empty() ? "not known in B: " + b.why_not : "without a standard error";
 }
 
-QuantityComparison compare_quantity(const ComparedQuantity& quantity, const SideValues& a, const SideValues& b) {
+QuantityComparison compare_quantity(const Quantity& quantity, const SideValues& a, const SideValues& b) {
   QuantityComparison result;
   result.quantity = quantity;
   result.a = side_estimate(a);
@@ -207,24 +206,21 @@ namespace {
 
 using documents::JsonNode;
 
-std::vector<ComparedQuantity> make_quantities() {
-  std::vector<ComparedQuantity> quantities;
-  const auto add = [&quantities](const Quantity& quantity) {
-    quantities.push_back(
-        {std::string(quantity.section), std::string(quantity.key), full_words(quantity), std::string(quantity.unit)});
-  };
+std::vector<Quantity> make_quantities() {
+  std::vector<Quantity> quantities;
   for (const Quantity& quantity : recording_quantities()) {
-    if (quantity.section == "parameters" && quantity.key != info(ParameterId::SensorAverage).key) add(quantity);
+    if (quantity.section == "parameters" && quantity.key != info(ParameterId::SensorAverage).key)
+      quantities.push_back(quantity);
   }
-  add(kFrequency);
-  add(kMeasured.front());  // the others are its inverse and its spread
-  for (const Quantity& quantity : kCoefficients) add(quantity);
+  quantities.push_back(kFrequency);
+  quantities.push_back(kMeasured.front());  // the others are its inverse and its spread
+  quantities.insert(quantities.end(), kCoefficients.begin(), kCoefficients.end());
   return quantities;
 }
 
 /// Returns a value for the comparison; values that are only bounded or were not measured have none.
-ComparedValue value_in(const JsonNode& document, const ComparedQuantity& quantity) {
-  const auto found = documents::quantity_in(document, quantity_with_key(quantity.key));
+ComparedValue value_in(const JsonNode& document, const Quantity& quantity) {
+  const auto found = documents::quantity_in(document, quantity);
   if (!found) return {unknown("its result does not contain it"), {}, true};
   ComparedValue value{found->estimate, found->status, false};
   Estimate& estimate = value.estimate;
@@ -252,14 +248,14 @@ ComparedFit fit_from(const JsonNode& document) {
     fit.normal_force_N = recording->number_at("normal_force_N");
     fit.zero_force_N = recording->number_at("zero_force_N");
   }
-  for (const ComparedQuantity& quantity : compared_quantities()) fit.values.push_back(value_in(document, quantity));
+  for (const Quantity& quantity : compared_quantities()) fit.values.push_back(value_in(document, quantity));
   return fit;
 }
 
 }  // namespace
 
-std::span<const ComparedQuantity> compared_quantities() {
-  static const std::vector<ComparedQuantity> quantities = make_quantities();
+std::span<const Quantity> compared_quantities() {
+  static const std::vector<Quantity> quantities = make_quantities();
   return quantities;
 }
 

@@ -54,18 +54,9 @@ double displacement_m(const Motion& motion) {
   return motion.cycle ? motion.cycle->periodic_displacement_m : kNone;
 }
 
-/// The curves of figure 8 for one damping ratio.
-struct DampedCurves {
-  chart::Line exact, paper, exact_ratio, paper_ratio, corrected_ratio;
-};
-
-DampedCurves damped_curves(double zeta, Colour colour, Table& table) {
+/// Adds the rows of figure 8 for one damping ratio, and to `ratios` the displacements over the undamped one.
+void add_damped(double zeta, Table& table, Table& ratios) {
   const Slider slider = slider_with(kSpringDrop_m, zeta);
-  DampedCurves curves{{fmt::format("ζ = {}, exact", zeta), colour, Stroke::Solid, {}},
-                      {"", colour, Stroke::Dashed, {}},
-                      {"", colour, Stroke::Solid, {}},
-                      {"", colour, Stroke::Dashed, {}},
-                      {"", colour, Stroke::Dotted, {}}};
   std::vector<double> ends;
   if (zeta > 0.0) ends = {speed_at(critical_lambda(zeta), slider), speed_at(first_solvable_lambda(zeta), slider)};
   for (const double speed : speeds_with(ends)) {
@@ -76,13 +67,8 @@ DampedCurves damped_curves(double zeta, Colour colour, Table& table) {
     const double printed_m = paper ? paper.value().displacement_printed_m : kNone;
     const double corrected_m = paper ? paper.value().displacement_corrected_m : kNone;
     table.add({zeta, speed, motion.lambda, exact_m, printed_m, corrected_m});
-    curves.exact.points.push_back({speed, 1e3 * exact_m});
-    curves.paper.points.push_back({speed, 1e3 * printed_m});
-    curves.exact_ratio.points.push_back({speed, exact_m / undamped_m});
-    curves.paper_ratio.points.push_back({speed, printed_m / undamped_m});
-    curves.corrected_ratio.points.push_back({speed, corrected_m / undamped_m});
+    ratios.add({zeta, speed, exact_m / undamped_m, printed_m / undamped_m, corrected_m / undamped_m});
   }
-  return curves;
 }
 
 /// The last exact point of a curve, and its speed as a dotted line down to the axis.
@@ -95,18 +81,6 @@ void mark_critical_speed(const chart::Line& curve, bool with_text, chart::Panel&
   panel.notes.push_back({*last, fmt::format("{:.2f} m/s", last->x), Colour::Black, 35.0, 14.0});
 }
 
-chart::Chart damped_chart(chart::Panel upper, chart::Panel lower) {
-  upper.height_px = 300.0;
-  upper.lines.push_back({"paper's approximation, eq. (40)", Colour::Grey, Stroke::Dashed, {}});
-  upper.lines.push_back({"the same, corrected (below)", Colour::Grey, Stroke::Dotted, {}});
-  upper.markers.push_back({"exact critical speed", Colour::Grey, Shape::Dot, {}});
-  lower.height_px = 200.0;
-  return {"Figure 8: stick-slip amplitude with damping",
-          {"m = 0.5 g and Xₛ = 1 mm as in the paper. Below: relative to the undamped amplitude.",
-           "Assumed: k = 5 kN/m (Fₛ − Fₖ = 5 N as in figure 4), ζ, the range of V."},
-          {upper, lower}};
-}
-
 }  // namespace
 
 std::vector<FigureFile> amplitude_against_speed() {
@@ -114,28 +88,23 @@ std::vector<FigureFile> amplitude_against_speed() {
       {"figure 4 of the paper: undamped, eq. (23); mass 0.5 gram, F_s - F_k = 5 N",
        "assumed: the values of X_s = (F_s - F_k)/k and the range of speed, which the paper's text does not give"},
       {"assumed_X_s_m", "stiffness_N_per_m", "speed_m_per_s", "lambda", "displacement_m"});
-  chart::Panel panel;
+  chart::Panel panel{.x = {kSpeedLabel, 0.0, kFastest_m_per_s}, .y = {"stick-slip amplitude Δx  [mm]", 0.0, 45.0}};
   for (std::size_t i = kSpringDrops_m.size(); i-- > 0;) {  // the uppermost curve first in the legend
-    const Slider slider = slider_with(kSpringDrops_m.at(i), 0.0);
-    chart::Line line{
-        fmt::format("Xₛ = {} mm, k = {} kN/m", 1e3 * kSpringDrops_m.at(i), 1e-3 * slider.stiffness_N_per_m()),
-        kColours.at(i),
-        Stroke::Solid,
-        {}};
+    const double drop_m = kSpringDrops_m.at(i);
+    const Slider slider = slider_with(drop_m, 0.0);
+    const double stiffness_N_per_m = slider.stiffness_N_per_m();
     for (const double speed : speeds_with({})) {
       const Motion motion = damped_motion(slider, friction(), speed);
-      table.add({kSpringDrops_m.at(i), slider.stiffness_N_per_m(), speed, motion.lambda, displacement_m(motion)});
-      line.points.push_back({speed, 1e3 * displacement_m(motion)});
+      table.add({drop_m, stiffness_N_per_m, speed, motion.lambda, displacement_m(motion)});
     }
-    panel.lines.push_back(line);
+    const std::string name = fmt::format("Xₛ = {} mm, k = {} kN/m", 1e3 * drop_m, 1e-3 * stiffness_N_per_m);
+    panel.lines.push_back(table.line({name, kColours.at(i), Stroke::Solid, {}}, 2, 4, drop_m, 1e3));
   }
-  panel.x = {kSpeedLabel, 0.0, kFastest_m_per_s};
-  panel.y = {"stick-slip amplitude Δx  [mm]", 0.0, 45.0};
-  const chart::Chart chart{"Figure 4: stick-slip amplitude against speed, undamped",
-                           {"Exact; so is the paper's eq. (23). m = 0.5 g and Fₛ − Fₖ = 5 N as in the paper.",
-                            "Assumed: the values of Xₛ = (Fₛ − Fₖ)/k and the range of V."},
-                           {panel}};
-  return {{"figure_4.csv", table.csv()}, {"figure_4.svg", to_svg(chart)}};
+  return files_of("figure_4", table,
+                  {"Figure 4: stick-slip amplitude against speed, undamped",
+                   {"Exact; so is the paper's eq. (23). m = 0.5 g and Fₛ − Fₖ = 5 N as in the paper.",
+                    "Assumed: the values of Xₛ = (Fₛ − Fₖ)/k and the range of V."},
+                   {panel}});
 }
 
 std::vector<FigureFile> damped_amplitude_against_speed() {
@@ -148,26 +117,38 @@ std::vector<FigureFile> damped_amplitude_against_speed() {
   Table limits(
       {"figure 8 of the paper: the speeds above which there is no stick-slip (exact) and no root of eq. (36)", assumed},
       {"assumed_damping_ratio", "critical_speed_m_per_s", "largest_speed_of_eq_36_m_per_s"});
-  chart::Panel upper, lower;
-  upper.x = {"", 0.0, kFastest_m_per_s};
-  upper.y = {"amplitude Δx  [mm]", 0.0, 20.0};
-  lower.x = {kSpeedLabel, 0.0, kFastest_m_per_s};
-  lower.y = {"Δx / Δx(ζ = 0)  [-]", 0.8, 1.1};
+  Table ratios({}, {"damping_ratio", "speed_m_per_s", "exact", "paper", "corrected"});
+  chart::Panel upper{.x = {"", 0.0, kFastest_m_per_s}, .y = {"amplitude Δx  [mm]", 0.0, 20.0}, .height_px = 300.0};
+  chart::Panel lower{
+      .x = {kSpeedLabel, 0.0, kFastest_m_per_s}, .y = {"Δx / Δx(ζ = 0)  [-]", 0.8, 1.1}, .height_px = 200.0};
   for (std::size_t i = 0; i < kDampingRatios.size(); ++i) {
     const double zeta = kDampingRatios.at(i);
-    const DampedCurves curves = damped_curves(zeta, kColours.at(i), table);
+    const Colour colour = kColours.at(i);
+    add_damped(zeta, table, ratios);
+    const chart::Line exact =
+        table.line({fmt::format("ζ = {}, exact", zeta), colour, Stroke::Solid, {}}, 1, 3, zeta, 1e3);
+    const chart::Line exact_ratio = ratios.line({"", colour, Stroke::Solid, {}}, 1, 2, zeta);
     if (zeta > 0.0) {
       const Slider slider = slider_with(kSpringDrop_m, zeta);
       limits.add({zeta, speed_at(critical_lambda(zeta), slider), speed_at(first_solvable_lambda(zeta), slider)});
-      mark_critical_speed(curves.exact, true, upper);
-      mark_critical_speed(curves.exact_ratio, false, lower);
+      mark_critical_speed(exact, true, upper);
+      mark_critical_speed(exact_ratio, false, lower);
     }
-    upper.lines.insert(upper.lines.end(), {curves.paper, curves.exact});
-    lower.lines.insert(lower.lines.end(), {curves.paper_ratio, curves.corrected_ratio, curves.exact_ratio});
+    upper.lines.insert(upper.lines.end(), {table.line({"", colour, Stroke::Dashed, {}}, 1, 4, zeta, 1e3), exact});
+    lower.lines.insert(lower.lines.end(), {ratios.line({"", colour, Stroke::Dashed, {}}, 1, 3, zeta),
+                                           ratios.line({"", colour, Stroke::Dotted, {}}, 1, 4, zeta), exact_ratio});
   }
-  return {{"figure_8.csv", table.csv()},
-          {"figure_8_critical_speeds.csv", limits.csv()},
-          {"figure_8.svg", to_svg(damped_chart(upper, lower))}};
+  upper.lines.push_back({"paper's approximation, eq. (40)", Colour::Grey, Stroke::Dashed, {}});
+  upper.lines.push_back({"the same, corrected (below)", Colour::Grey, Stroke::Dotted, {}});
+  upper.markers.push_back({"exact critical speed", Colour::Grey, Shape::Dot, {}});
+  std::vector<FigureFile> files =
+      files_of("figure_8", table,
+               {"Figure 8: stick-slip amplitude with damping",
+                {"m = 0.5 g and Xₛ = 1 mm as in the paper. Below: relative to the undamped amplitude.",
+                 "Assumed: k = 5 kN/m (Fₛ − Fₖ = 5 N as in figure 4), ζ, the range of V."},
+                {upper, lower}});
+  files.insert(files.begin() + 1, {"figure_8_critical_speeds.csv", limits.csv()});
+  return files;
 }
 
 }  // namespace slipfit::figures

@@ -26,33 +26,22 @@ std::vector<double> lambdas_from(double first, double critical) {
   return lambdas;
 }
 
-chart::Line undamped_curve(Table& table) {
-  chart::Line line{"ζ = 0, eq. (22)", Colour::Black, Stroke::Solid, {{0.0, 0.0}}};
-  for (const double lambda : evenly_spaced(0.0, kLargestDampedLambda, 200)) {
-    if (lambda == 0.0) continue;
-    line.points.push_back({lambda, scaled_motion(lambda, 0.0).cycle->sticking_degree});
-    table.add({0.0, lambda, line.points.back().y, scaled_paper_cycle(lambda, 0.0).value().sticking_degree});
-  }
-  return line;
-}
-
-/// The curves of one damping ratio, with its limits as markers, into both panels' content.
+/// The curves of one damping ratio, with its limits as markers.
 void add_damped_curves(const PrintedLimit& printed, Colour colour, Table& table, Table& limits, chart::Panel& panel) {
   const double zeta = printed.damping_ratio;
   const double critical = critical_lambda(zeta);
   const double first = first_solvable_lambda(zeta);
   const double jump = sticking_degree_at_limit(zeta);
-  chart::Line exact{fmt::format("ζ = {}, exact", zeta), colour, Stroke::Solid, {{critical, jump}}};
-  chart::Line paper{"", colour, Stroke::Dashed, {}};
   for (const double lambda : lambdas_from(first, critical)) {
     const Motion motion = scaled_motion(lambda, zeta);
-    const Result<PaperCycle> approximation = scaled_paper_cycle(lambda, zeta);
-    const double exact_degree = motion.cycle ? motion.cycle->sticking_degree : kNone;
-    const double paper_degree = approximation ? approximation.value().sticking_degree : kNone;
-    table.add({zeta, lambda, exact_degree, paper_degree});
-    if (lambda > critical) exact.points.push_back({lambda, exact_degree});
-    paper.points.push_back({lambda, paper_degree});
+    const Result<PaperCycle> paper = scaled_paper_cycle(lambda, zeta);
+    table.add({zeta, lambda, motion.cycle ? motion.cycle->sticking_degree : kNone,
+               paper ? paper.value().sticking_degree : kNone});
   }
+  chart::Line exact = table.line({fmt::format("ζ = {}, exact", zeta), colour, Stroke::Solid, {}}, 1, 2, zeta);
+  std::erase_if(exact.points, [critical](const chart::Point& point) { return !(point.x > critical); });
+  exact.points.insert(exact.points.begin(), {critical, jump});
+  const chart::Line paper = table.line({"", colour, Stroke::Dashed, {}}, 1, 3, zeta);
   limits.add({zeta, critical, jump, printed.lambda, first, critical / printed.lambda});
   panel.lines.push_back({"", colour, Stroke::Dotted, {{critical, jump}, {critical, 0.0}}});
   panel.markers.push_back({"", colour, Shape::Dot, {{critical, jump}}});
@@ -62,24 +51,17 @@ void add_damped_curves(const PrintedLimit& printed, Colour colour, Table& table,
   panel.lines.push_back(exact);
 }
 
-/// Entries of the legend that apply to every colour.
-void add_keys(chart::Panel& panel) {
-  panel.lines.push_back({"paper's approximation, eq. (38)", Colour::Grey, Stroke::Dashed, {}});
-  panel.markers.push_back({"exact limit, where it jumps to 0", Colour::Grey, Shape::Dot, {}});
-  panel.markers.push_back({"first λ with a root of eq. (36)", Colour::Grey, Shape::Ring, {}});
-  panel.markers.push_back({"limit printed in the paper: 0.2, 0.5, 0.9", Colour::Grey, Shape::Triangle, {}});
-}
-
 chart::Chart chart_of(chart::Panel whole) {
-  whole.height_px = 300.0;
-  whole.x = {"stick-slip parameter λ  [-]", 0.0, kLargestDampedLambda};
-  whole.y = {"sticking degree  [-]", 0.0, 0.8};
   chart::Panel close = whole;  // the same close to the limits, without the legend
   for (chart::Line& line : close.lines) line.name.clear();
   for (chart::Markers& markers : close.markers) markers.name.clear();
   close.x.high = 1.8;
   close.y.high = 0.35;
-  add_keys(whole);
+  // Entries of the legend that apply to every colour.
+  whole.lines.push_back({"paper's approximation, eq. (38)", Colour::Grey, Stroke::Dashed, {}});
+  whole.markers.push_back({"exact limit, where it jumps to 0", Colour::Grey, Shape::Dot, {}});
+  whole.markers.push_back({"first λ with a root of eq. (36)", Colour::Grey, Shape::Ring, {}});
+  whole.markers.push_back({"limit printed in the paper: 0.2, 0.5, 0.9", Colour::Grey, Shape::Triangle, {}});
   for (const PrintedLimit& printed : kPrintedLimits) {
     const double critical = critical_lambda(printed.damping_ratio);
     close.notes.push_back({{critical, sticking_degree_at_limit(printed.damping_ratio)},
@@ -104,13 +86,21 @@ std::vector<FigureFile> damped_sticking_degree() {
                 "the paper's eq. (36) has a root"},
                {"damping_ratio", "lambda_limit_exact", "sticking_degree_at_exact_limit", "lambda_limit_printed",
                 "lambda_first_root_of_eq_36", "critical_speed_printed_over_exact"});
-  chart::Panel panel;
-  panel.lines.push_back(undamped_curve(table));
+  for (const double lambda : evenly_spaced(0.0, kLargestDampedLambda, 200)) {
+    if (lambda == 0.0) continue;
+    table.add({0.0, lambda, scaled_motion(lambda, 0.0).cycle->sticking_degree,
+               scaled_paper_cycle(lambda, 0.0).value().sticking_degree});
+  }
+  chart::Panel panel{.x = {"stick-slip parameter λ  [-]", 0.0, kLargestDampedLambda},
+                     .y = {"sticking degree  [-]", 0.0, 0.8},
+                     .height_px = 300.0,
+                     .lines = {table.line({"ζ = 0, eq. (22)", Colour::Black, Stroke::Solid, {{0.0, 0.0}}}, 1, 2)}};
   for (std::size_t i = 0; i < kPrintedLimits.size(); ++i) {
     add_damped_curves(kPrintedLimits.at(i), kDampedColours.at(i), table, limits, panel);
   }
-  return {
-      {"figure_7.csv", table.csv()}, {"figure_7_limits.csv", limits.csv()}, {"figure_7.svg", to_svg(chart_of(panel))}};
+  std::vector<FigureFile> files = files_of("figure_7", table, chart_of(panel));
+  files.insert(files.begin() + 1, {"figure_7_limits.csv", limits.csv()});
+  return files;
 }
 
 }  // namespace slipfit::figures

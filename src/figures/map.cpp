@@ -13,29 +13,17 @@ constexpr double kLeft = 0.01, kRight = 100.0;  // lambda
 constexpr double kBottom = 0.001, kTop = 3.0;   // zeta
 
 /// The limits by damping ratio, from the smallest to just below 1.
-struct Limits {
-  chart::Line exact{"exact limit of stick-slip", Colour::Black, Stroke::Solid, {}};
-  chart::Line paper{"the paper's limit, ζ ≈ λ (eq. 39)", Colour::Vermillion, Stroke::Dashed, {}};
-  chart::Line first_root{"limit of eq. (36)", Colour::Purple, Stroke::DashDotted, {}};
-  Table table{
+Table limits() {
+  constexpr double kLargestZeta = 0.995;
+  Table table(
       {"limits of stick-slip over lambda and zeta: exact, the paper's eq. (39), and the first lambda at which the "
        "paper's eq. (36) has a root"},
       {"damping_ratio", "lambda_limit_exact", "sticking_degree_at_exact_limit", "lambda_limit_of_eq_39",
-       "lambda_first_root_of_eq_36"}};
-};
-
-Limits limits() {
-  constexpr double kLargestZeta = 0.995;
-  Limits limits;
+       "lambda_first_root_of_eq_36"});
   for (const double zeta : logarithmically_spaced(kBottom, kLargestZeta, 150)) {
-    const double critical = critical_lambda(zeta);
-    const double first = first_solvable_lambda(zeta);
-    limits.table.add({zeta, critical, sticking_degree_at_limit(zeta), zeta, first});
-    limits.exact.points.push_back({critical, zeta});
-    limits.first_root.points.push_back({first, zeta});
+    table.add({zeta, critical_lambda(zeta), sticking_degree_at_limit(zeta), zeta, first_solvable_lambda(zeta)});
   }
-  limits.paper.points = {{kLeft, kLeft}, {1.0, 1.0}};
-  return limits;
+  return table;
 }
 
 /// Between the left edge and a limit, below zeta = 1.
@@ -53,15 +41,19 @@ std::vector<Point> right_of(const chart::Line& limit) {
   return outline;
 }
 
-chart::Panel map_of(const Limits& limits) {
-  chart::Panel panel;
-  panel.height_px = 420.0;
-  panel.x = {"stick-slip parameter λ = ωₙ (Fₛ − Fₖ) / (k V)  [-]", kLeft, kRight, kLog};
-  panel.y = {"damping ratio ζ  [-]", kBottom, kTop, kLog};
-  panel.areas = {{"", Colour::SkyBlue, Fill::Plain, right_of(limits.exact)},
+chart::Panel map_of(const Table& limits) {
+  const chart::Line exact_limit = limits.line({"exact limit of stick-slip", Colour::Black, Stroke::Solid, {}}, 1, 0);
+  const chart::Line first_root = limits.line({"limit of eq. (36)", Colour::Purple, Stroke::DashDotted, {}}, 4, 0);
+  chart::Panel panel{
+      .x = {"stick-slip parameter λ = ωₙ (Fₛ − Fₖ) / (k V)  [-]", kLeft, kRight, kLog},
+      .y = {"damping ratio ζ  [-]", kBottom, kTop, kLog},
+      .height_px = 420.0,
+      .lines = {first_root,
+                {"the paper's limit, ζ ≈ λ (eq. 39)", Colour::Vermillion, Stroke::Dashed, {{kLeft, kLeft}, {1.0, 1.0}}},
+                exact_limit}};
+  panel.areas = {{"", Colour::SkyBlue, Fill::Plain, right_of(exact_limit)},
                  {"", Colour::Grey, Fill::Plain, {{kLeft, 1}, {kLeft, kTop}, {kRight, kTop}, {kRight, 1}}},
-                 {"left of it: eq. (36) has no solution", Colour::Purple, Fill::Hatched, left_of(limits.first_root)}};
-  panel.lines = {limits.first_root, limits.paper, limits.exact};
+                 {"left of it: eq. (36) has no solution", Colour::Purple, Fill::Hatched, left_of(first_root)}};
   chart::Markers printed{"limits printed in the paper (figure 7)", Colour::Vermillion, Shape::Triangle, {}};
   chart::Markers exact{"exact limits at the same ζ", Colour::Black, Shape::Dot, {}};
   for (const PrintedLimit& limit : kPrintedLimits) {
@@ -78,12 +70,12 @@ chart::Panel map_of(const Limits& limits) {
 }  // namespace
 
 std::vector<FigureFile> regime_map() {
-  const Limits found = limits();
-  const chart::Chart chart{"Stability map, Coulomb friction",
-                           {"Between the dashed and the dash-dotted line the paper expects stick-slip,",
-                            "but its equations have no solution there."},
-                           {map_of(found)}};
-  return {{"regime_map.csv", found.table.csv()}, {"regime_map.svg", to_svg(chart)}};
+  const Table found = limits();
+  return files_of("regime_map", found,
+                  {"Stability map, Coulomb friction",
+                   {"Between the dashed and the dash-dotted line the paper expects stick-slip,",
+                    "but its equations have no solution there."},
+                   {map_of(found)}});
 }
 
 }  // namespace slipfit::figures

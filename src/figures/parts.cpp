@@ -22,19 +22,32 @@ Friction scaled_friction(double lambda) {
 
 }  // namespace
 
-Table::Table(const std::vector<std::string>& comments, const std::vector<std::string>& columns)
-    : columns_(columns.size()) {
-  for (const std::string& comment : comments) csv_ += "# " + comment + "\n";
-  csv_ += fmt::format("{}\n", fmt::join(columns, ","));
+void Table::add(std::vector<double> row) {
+  assert(row.size() == columns_.size());
+  rows_.push_back(std::move(row));
 }
 
-void Table::add(const std::vector<double>& row) {
-  assert(row.size() == columns_);
-  for (std::size_t i = 0; i < row.size(); ++i) {
-    if (i > 0) csv_ += ',';
-    if (std::isfinite(row[i])) csv_ += fmt::format("{}", row[i]);
+std::string Table::csv() const {
+  std::string csv;
+  for (const std::string& comment : comments_) csv += "# " + comment + "\n";
+  csv += fmt::format("{}\n", fmt::join(columns_, ","));
+  for (const std::vector<double>& row : rows_) {
+    std::vector<std::string> cells;
+    for (const double number : row) cells.push_back(std::isfinite(number) ? fmt::format("{}", number) : "");
+    csv += fmt::format("{}\n", fmt::join(cells, ","));
   }
-  csv_ += '\n';
+  return csv;
+}
+
+chart::Line Table::line(chart::Line line, std::size_t x, std::size_t y, std::optional<double> key, double scale) const {
+  for (const std::vector<double>& row : rows_) {
+    if (!key || row.front() == *key) line.points.push_back({row.at(x), scale * row.at(y)});
+  }
+  return line;
+}
+
+std::vector<FigureFile> files_of(const std::string& name, const Table& table, const chart::Chart& chart) {
+  return {{name + ".csv", table.csv()}, {name + ".svg", to_svg(chart)}};
 }
 
 Motion scaled_motion(double lambda, double damping_ratio) {

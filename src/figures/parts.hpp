@@ -1,10 +1,14 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <limits>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "chart/chart.hpp"
 #include "slipfit/core/result.hpp"
 #include "slipfit/figures/figures.hpp"
 #include "slipfit/model/motion.hpp"
@@ -23,17 +27,26 @@ std::vector<FigureFile> damped_sticking_degree();          // figure 7
 std::vector<FigureFile> damped_amplitude_against_speed();  // figure 8
 std::vector<FigureFile> regime_map();
 
-/// A CSV table of numbers under lines of comment; what is not finite becomes an empty cell.
+/// A table of numbers, whose columns are the lines of a picture.
 class Table {
  public:
-  Table(const std::vector<std::string>& comments, const std::vector<std::string>& columns);
-  void add(const std::vector<double>& row);
-  [[nodiscard]] const std::string& csv() const { return csv_; }
+  Table(std::vector<std::string> comments, std::vector<std::string> columns)
+      : comments_(std::move(comments)), columns_(std::move(columns)) {}
+  void add(std::vector<double> row);
+  /// CSV under lines of comment; what is not finite becomes an empty cell.
+  [[nodiscard]] std::string csv() const;
+  /// Adds the points of two columns, the second in units of 1 / `scale`, to a line: of all rows, or of those whose
+  /// first cell is `key`.
+  [[nodiscard]] chart::Line line(chart::Line line, std::size_t x, std::size_t y, std::optional<double> key = {},
+                                 double scale = 1.0) const;
 
  private:
-  std::size_t columns_ = 0;
-  std::string csv_;
+  std::vector<std::string> comments_, columns_;
+  std::vector<std::vector<double>> rows_;
 };
+
+/// The table NAME.csv and the picture NAME.svg.
+std::vector<FigureFile> files_of(const std::string& name, const Table& table, const chart::Chart& chart);
 
 // The model in scaled form: with w_n = 1, k = 1 and V = 1 times are w_n t and lengths are in V/w_n, so that lambda is
 // F_s - F_k and the periodic displacement is xi, [Paper] eqs (9)-(11).

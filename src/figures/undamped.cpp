@@ -30,48 +30,37 @@ std::vector<FigureFile> slip_and_stick_times() {
   Table table({"figure 2 of the paper: undamped times, eqs (20) and (21); range of lambda assumed"},
               {"lambda", "slip_time_times_natural_frequency_rad", "stick_time_times_natural_frequency_rad",
                "period_times_natural_frequency_rad"});
-  chart::Line slip{"slip, 2(π − atan λ), eq. (20)", Colour::Blue, Stroke::Solid, {}};
-  chart::Line stick{"stick, 2λ, eq. (21)", Colour::Vermillion, Stroke::Solid, {}};
-  chart::Line period{"period, slip + stick", Colour::Black, Stroke::DashDotted, {}};
   for (const double lambda : evenly_spaced(0.0, kLargestLambda, 200)) {
     const LimitCycle cycle = cycle_at(lambda);
     table.add({lambda, cycle.slip_s, cycle.stick_s, cycle.period_s});
-    slip.points.push_back({lambda, cycle.slip_s});
-    stick.points.push_back({lambda, cycle.stick_s});
-    period.points.push_back({lambda, cycle.period_s});
   }
-  chart::Panel panel;
-  panel.x = {kLambdaLabel, 0.0, kLargestLambda};
-  panel.y = {"time × natural frequency  [rad]", 0.0, 25.0};
-  panel.lines = {period, stick, slip};
-  const chart::Chart chart{"Figure 2: slip time, stick time and period, undamped", {kRemark}, {panel}};
-  return {{"figure_2.csv", table.csv()}, {"figure_2.svg", to_svg(chart)}};
+  const chart::Panel panel{
+      .x = {kLambdaLabel, 0.0, kLargestLambda},
+      .y = {"time × natural frequency  [rad]", 0.0, 25.0},
+      .lines = {table.line({"period, slip + stick", Colour::Black, Stroke::DashDotted, {}}, 0, 3),
+                table.line({"stick, 2λ, eq. (21)", Colour::Vermillion, Stroke::Solid, {}}, 0, 2),
+                table.line({"slip, 2(π − atan λ), eq. (20)", Colour::Blue, Stroke::Solid, {}}, 0, 1)}};
+  return files_of("figure_2", table, {"Figure 2: slip time, stick time and period, undamped", {kRemark}, {panel}});
 }
 
 std::vector<FigureFile> sticking_degree_and_amplitude() {
   Table table({"figure 3 of the paper: undamped cycle, eqs (22) and (24); range of lambda assumed"},
               {"lambda", "sticking_degree", "normalized_displacement"});
-  chart::Line degree{"sticking degree, eq. (22)", Colour::Blue, Stroke::Solid, {}};
-  chart::Line displacement{"displacement ξ, eq. (24)", Colour::Vermillion, Stroke::Solid, {}};
   for (const double lambda : evenly_spaced(0.0, kLargestLambda, 200)) {
     const LimitCycle cycle = cycle_at(lambda);
     table.add({lambda, cycle.sticking_degree, cycle.periodic_displacement_m});
-    degree.points.push_back({lambda, cycle.sticking_degree});
-    displacement.points.push_back({lambda, cycle.periodic_displacement_m});
   }
-  chart::Panel upper;
-  upper.height_px = 210.0;
-  upper.x = {"", 0.0, kLargestLambda};
-  upper.y = {"sticking degree  [-]", 0.0, 1.0};
-  upper.lines = {degree};
-  chart::Panel lower;
-  lower.height_px = 210.0;
-  lower.x = {kLambdaLabel, 0.0, kLargestLambda};
-  lower.y = {"ξ = Δx ωₙ / V  [-]", 0.0, 25.0};
-  lower.lines = {displacement};
-  const chart::Chart chart{
-      "Figure 3: sticking degree and normalized displacement, undamped", {kRemark}, {upper, lower}};
-  return {{"figure_3.csv", table.csv()}, {"figure_3.svg", to_svg(chart)}};
+  const chart::Panel upper{.x = {"", 0.0, kLargestLambda},
+                           .y = {"sticking degree  [-]", 0.0, 1.0},
+                           .height_px = 210.0,
+                           .lines = {table.line({"sticking degree, eq. (22)", Colour::Blue, Stroke::Solid, {}}, 0, 1)}};
+  const chart::Panel lower{
+      .x = {kLambdaLabel, 0.0, kLargestLambda},
+      .y = {"ξ = Δx ωₙ / V  [-]", 0.0, 25.0},
+      .height_px = 210.0,
+      .lines = {table.line({"displacement ξ, eq. (24)", Colour::Vermillion, Stroke::Solid, {}}, 0, 2)}};
+  return files_of("figure_3", table,
+                  {"Figure 3: sticking degree and normalized displacement, undamped", {kRemark}, {upper, lower}});
 }
 
 }  // namespace slipfit::figures

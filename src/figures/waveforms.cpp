@@ -53,29 +53,24 @@ std::vector<FigureFile> velocity_ratio() {
   Table table({"figure 5 of the paper: undamped, eq. (25) with the phase atan(lambda) - pi; one period from slip onset",
                "assumed: the values of lambda, which the paper's text does not give"},
               {"assumed_lambda", "tau_rad", "velocity_ratio"});
-  chart::Panel panel;
-
+  chart::Panel panel{.x = {kTimeLabel, 0.0, 14.0}, .y = {"velocity ratio v* = (sliding speed) / V  [-]", 0.0, 6.5}};
   for (std::size_t i = 0; i < kLambdas.size(); ++i) {
-    const model::Slip slip = model::solve_slip(kLambdas.at(i), 0.0);
-    chart::Line line{fmt::format("λ = {}", kLambdas.at(i)), kWaveColours.at(i), Stroke::Solid, {}};
-    for (const double tau : times_of(slip, 1)) {
-      const double ratio = state_at(slip, tau).speed_ratio;
-      table.add({kLambdas.at(i), tau, ratio});
-      line.points.push_back({tau, ratio});
-    }
-    panel.markers.push_back({"", kWaveColours.at(i), chart::Shape::Ring, {{slip.tau_end, 0.0}}});
-    panel.markers.push_back({"", kWaveColours.at(i), chart::Shape::Cross, {{line.points.back().x, 0.0}}});
-    panel.lines.push_back(line);
+    const double lambda = kLambdas.at(i);
+    const Colour colour = kWaveColours.at(i);
+    const model::Slip slip = model::solve_slip(lambda, 0.0);
+    for (const double tau : times_of(slip, 1)) table.add({lambda, tau, state_at(slip, tau).speed_ratio});
+    panel.lines.push_back(table.line({fmt::format("λ = {}", lambda), colour, Stroke::Solid, {}}, 1, 2, lambda));
+    const double end = panel.lines.back().points.back().x;
+    panel.markers.push_back({"", colour, chart::Shape::Ring, {{slip.tau_end, 0.0}}});
+    panel.markers.push_back({"", colour, chart::Shape::Cross, {{end, 0.0}}});
   }
-  panel.x = {kTimeLabel, 0.0, 14.0};
-  panel.y = {"velocity ratio v* = (sliding speed) / V  [-]", 0.0, 6.5};
   panel.markers.push_back({"end of slip", Colour::Grey, chart::Shape::Ring, {}});
   panel.markers.push_back({"end of stick", Colour::Grey, chart::Shape::Cross, {}});
-  const chart::Chart chart{"Figure 5: velocity ratio in one period, undamped",
-                           {"Exact: the paper's eq. (25) with the phase of eq. (14) corrected to atan λ − π.",
-                            "Assumed: the values of λ, which the text of the paper does not give."},
-                           {panel}};
-  return {{"figure_5.csv", table.csv()}, {"figure_5.svg", to_svg(chart)}};
+  return files_of("figure_5", table,
+                  {"Figure 5: velocity ratio in one period, undamped",
+                   {"Exact: the paper's eq. (25) with the phase of eq. (14) corrected to atan λ − π.",
+                    "Assumed: the values of λ, which the text of the paper does not give."},
+                   {panel}});
 }
 
 std::vector<FigureFile> spring_force() {
@@ -83,27 +78,21 @@ std::vector<FigureFile> spring_force() {
                "assumed: friction_ratio 1.25, 1.5 and 2; the paper's text gives 2.5 only"},
               {"assumed_friction_ratio", "tau_rad", "normalized_spring_force"});
   const model::Slip slip = model::solve_slip(kForceLambda, 0.0);
-  const std::vector<double> times = times_of(slip, 2);
-  chart::Panel panel;
+  chart::Panel panel{.x = {kTimeLabel, 0.0, 17.0}, .y = {"spring force Fₑ* = Fₑ / (Fₛ − Fₖ)  [-]", -1.0, 8.0}};
   for (std::size_t i = 0; i < kFrictionRatios.size(); ++i) {
     const double ratio = kFrictionRatios.at(i);
-    chart::Line line{
-        fmt::format("γ = {}{}", ratio, ratio == 2.5 ? "" : " (assumed)"), kWaveColours.at(i), Stroke::Solid, {}};
-    for (const double tau : times) {
-      const double force = 1.0 / (ratio - 1.0) + state_at(slip, tau).z / kForceLambda;  // [Paper] eqs (26), (27)
-      table.add({ratio, tau, force});
-      line.points.push_back({tau, force});
+    for (const double tau : times_of(slip, 2)) {
+      table.add({ratio, tau, 1.0 / (ratio - 1.0) + state_at(slip, tau).z / kForceLambda});  // [Paper] eqs (26), (27)
     }
-    panel.lines.push_back(line);
+    const std::string name = fmt::format("γ = {}{}", ratio, ratio == 2.5 ? "" : " (assumed)");
+    panel.lines.push_back(table.line({name, kWaveColours.at(i), Stroke::Solid, {}}, 1, 2, ratio));
   }
-  panel.x = {kTimeLabel, 0.0, 17.0};
-  panel.y = {"spring force Fₑ* = Fₑ / (Fₛ − Fₖ)  [-]", -1.0, 8.0};
   panel.areas = {{"spring in compression", Colour::Grey, chart::Fill::Plain, {{0, -1}, {0, 0}, {17, 0}, {17, -1}}}};
-  const chart::Chart chart{"Figure 6: spring force in two periods at λ = 2, undamped",
-                           {"Exact; so are the paper's eqs (26) and (27). γ = Fₛ/Fₖ.",
-                            "Assumed: the values of γ but for 2.5, which the text of the paper gives."},
-                           {panel}};
-  return {{"figure_6.csv", table.csv()}, {"figure_6.svg", to_svg(chart)}};
+  return files_of("figure_6", table,
+                  {"Figure 6: spring force in two periods at λ = 2, undamped",
+                   {"Exact; so are the paper's eqs (26) and (27). γ = Fₛ/Fₖ.",
+                    "Assumed: the values of γ but for 2.5, which the text of the paper gives."},
+                   {panel}});
 }
 
 }  // namespace slipfit::figures

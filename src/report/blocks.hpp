@@ -6,7 +6,6 @@
 
 #include "report/format.hpp"
 #include "slipfit/analysis.hpp"
-#include "slipfit/surface/surface.hpp"
 #include "slipfit/sweep.hpp"
 
 namespace slipfit {
@@ -44,13 +43,38 @@ Block correlations_block(const FitResult& fit);
 /// Returns the block of the recordings at one speed.
 Block repeats_block(const std::vector<Repeat>& repeats);
 
-/// Returns the block of a worn surface.
-Block pattern_block(const Profile& profile, const Surface& surface);
-
 /// The numbers of a recording that are neither parameters nor coefficients of friction, in the order of the reports.
 std::vector<Block> number_blocks(const Recording& recording, const Analysis& analysis);
 
 /// Returns a block as text, with a blank line before its heading; empty for a block without content.
 std::string text_of(const Block& block);
+
+/// "run.csv: stick-slip at 24.6 Hz [24.2, 24.9], 47 slips, driven at 10 mm/s"
+std::string headline_of(const Recording& recording, const Analysis& analysis);
+
+// One function a section of the report for people; each ends with a line break, or is empty.
+/// "assumed: Coulomb friction; ..."
+std::string conditions_text(const std::vector<std::string>& conditional_on);
+/// "  critical speed: 20 mm/s [19, 21], lambda there 0.69 [0.67, 0.71]", or why it is not known.
+std::string critical_speed_text(const Estimate& speed_m_per_s, const Estimate& lambda, const std::string& given_unit);
+/// "-1.0 %"; "-" where one is not known.
+std::string off_by(const Estimate& predicted, const Estimate& measured);
+std::string warnings_text(const Warnings& warnings);
+/// Returns the assumptions made while reading a file.
+std::string assumed_text(const std::vector<std::string>& assumed);
+
+/// The numbers of a parameter as people see them: a bounded one's middle is no estimate, they see the interval alone.
+EstimateRow parameter_row(const Parameter& parameter);
+
+struct ShownParameter {
+  std::string words;
+  EstimateRow numbers;
+  ParameterStatus status = ParameterStatus::Unidentified;
+  std::string note;
+};
+std::vector<ShownParameter> shown_parameters(const FitResult& fit);
+
+/// Returns each status that occurs, except `identified`, with its meaning: "weak: an estimate that ...".
+std::vector<std::string> status_meanings(const std::vector<Parameter>& parameters);
 
 }  // namespace slipfit

@@ -56,7 +56,6 @@ std::optional<double> uncertainty_of(const Estimate& estimate) {
   return std::max(*error, kFinestError * std::abs(*estimate.value));
 }
 
-/// The unit that suits the estimate, or the end of its interval.
 }  // namespace
 
 std::size_t shown_width(std::string_view text) {

@@ -5,16 +5,12 @@
 #include <algorithm>
 #include <vector>
 
-#include "report/json_sections.hpp"
-#include "report/text_sections.hpp"
+#include "report/blocks.hpp"
+#include "report/json_values.hpp"
 #include "slipfit/core/printable.hpp"
 
 namespace slipfit {
 namespace {
-
-Json text_or_null(const std::string& text) {
-  return text.empty() ? Json() : Json(text);
-}
 
 Json column_json(const ColumnInfo& column) {
   return {{"index", column.index},

@@ -2,44 +2,74 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <optional>
 #include <string_view>
 
+#include "slipfit/compare.hpp"
 #include "slipfit/pipeline.hpp"
+#include "slipfit/surface/surface.hpp"
 #include "slipfit/sweep.hpp"
 
 namespace slipfit {
 
-// The words of the JSON document; docs/formats.md lists them.
-std::string_view name_of(Tier tier);
-std::string_view name_of(ForceView view);
-std::string_view name_of(ForceQuantity quantity);
-std::string_view name_of(LevelReading reading);
-std::string_view name_of(MotionClass motion);
-std::string_view name_of(ParameterStatus status);
-std::string_view name_of(SweepRole role);
-std::string_view name_of(Regularity regularity);
-std::string_view name_of(Regime regime);
-std::string_view name_of(FrequencyMethod method);
-std::string_view name_of(TestKind kind);
+/// The words of the JSON document for a type, in the order of its enumerators; docs/formats.md lists them.
+template <class Choice>
+inline constexpr std::array<std::string_view, 0> kNames{};
 
-inline constexpr std::array kMotions{MotionClass::StickSlip, MotionClass::SteadySliding, MotionClass::OscillatorySlip,
-                                     MotionClass::Undetermined};
-inline constexpr std::array kParameterStatuses{ParameterStatus::Identified, ParameterStatus::Weak,
-                                               ParameterStatus::Bounded,    ParameterStatus::Unidentified,
-                                               ParameterStatus::Fixed,      ParameterStatus::Conditional};
+template <>
+inline constexpr auto kNames<Tier> = std::to_array<std::string_view>({"sawtooth", "undamped", "damped", "velocity",
+                                                                      "weakening"});
+template <>
+inline constexpr auto kNames<ForceView> = std::to_array<std::string_view>({"spring", "transmitted", "contact"});
+template <>
+inline constexpr auto kNames<ForceQuantity> = std::to_array<std::string_view>({"force", "friction_coefficient"});
+template <>
+inline constexpr auto kNames<LevelReading> = std::to_array<std::string_view>({"open", "sensor", "friction", "none"});
+template <>
+inline constexpr auto kNames<MotionClass> = std::to_array<std::string_view>({"stick_slip", "steady_sliding",
+                                                                             "oscillatory_slip", "undetermined"});
+template <>
+inline constexpr auto kNames<ParameterStatus> =
+    std::to_array<std::string_view>({"identified", "weak", "bounded", "unidentified", "fixed", "conditional"});
+template <>
+inline constexpr auto kNames<SweepRole> = std::to_array<std::string_view>({"cycles", "steady", "left_out"});
+template <>
+inline constexpr auto kNames<Regularity> = std::to_array<std::string_view>({"regular", "irregular", "clocked"});
+template <>
+inline constexpr auto kNames<Regime> = std::to_array<std::string_view>({"stick_slip", "stick_slip_bistable",
+                                                                        "oscillatory_slip", "continuous_slip",
+                                                                        "unstable_steady"});
+template <>
+inline constexpr auto kNames<FrequencyMethod> =
+    std::to_array<std::string_view>({"none", "fitted_cycles", "harmonic_least_squares", "slip_counting"});
+template <>
+inline constexpr auto kNames<TestKind> = std::to_array<std::string_view>({"period_drift", "level_repeats", "return_map",
+                                                                          "ageing", "stated_mass", "sensor_resonance"});
+template <>
+inline constexpr auto kNames<SurfaceStatus> = std::to_array<std::string_view>({"periodic", "irregular", "none",
+                                                                               "undetermined"});
+template <>
+inline constexpr auto kNames<SurfaceMethod> = std::to_array<std::string_view>({"ridges", "comb"});
+template <>
+inline constexpr auto kNames<ComparisonMethod> = std::to_array<std::string_view>({"standard_errors", "welch",
+                                                                                  "scatter_of_a", "scatter_of_b"});
 
-/// Returns the choice whose name in the document this is.
-template <class Choice, std::size_t Count>
-std::optional<Choice> with_name(const std::array<Choice, Count>& choices, std::string_view name) {
-  const auto found = std::ranges::find(choices, name, [](Choice choice) { return name_of(choice); });
-  return found == choices.end() ? std::nullopt : std::optional(*found);
+/// A type with names.
+template <class Choice>
+concept Named = !kNames<Choice>.empty();
+
+template <Named Choice>
+constexpr std::string_view name_of(Choice choice) {
+  return kNames<Choice>.at(static_cast<std::size_t>(choice));
 }
 
-/// Returns the kind of motion in words.
-std::string_view words_for_motion(MotionClass motion);
-
-/// Returns the meaning of a status for readers without the documentation.
-std::string_view words_for_status(ParameterStatus status);
+/// Returns the choice whose name in the document this is.
+template <Named Choice>
+std::optional<Choice> with_name(std::string_view name) {
+  const auto found = std::ranges::find(kNames<Choice>, name);
+  if (found == kNames<Choice>.end()) return std::nullopt;
+  return static_cast<Choice>(found - kNames<Choice>.begin());
+}
 
 }  // namespace slipfit

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <string_view>
 
+#include "report/blocks.hpp"
 #include "report/format.hpp"
-#include "report/json_sections.hpp"
-#include "report/text_sections.hpp"
+#include "report/json_values.hpp"
 #include "slipfit/core/printable.hpp"
 #include "slipfit/report/text.hpp"
 

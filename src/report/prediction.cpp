@@ -7,11 +7,11 @@
 #include <optional>
 
 #include "core/statistics.hpp"
+#include "report/blocks.hpp"
 #include "report/format.hpp"
-#include "report/json_sections.hpp"
+#include "report/json_values.hpp"
 #include "report/names.hpp"
 #include "report/quantity_rows.hpp"
-#include "report/text_sections.hpp"
 #include "slipfit/core/printable.hpp"
 #include "slipfit/report/text.hpp"
 
@@ -29,7 +29,7 @@ bool is_bistable(const PredictedMotion& row) {
 }
 
 Json row_json(const PredictedMotion& row) {
-  Json json{{"speed_m_per_s", row.speed_m_per_s}, {"regime", name_of(row.regime)}, {"bistable", is_bistable(row)}};
+  Json json{{"speed_m_per_s", row.speed_m_per_s}, {"regime", row.regime}, {"bistable", is_bistable(row)}};
   for (const auto& quantity : kMotionQuantities) json[std::string(quantity.key)] = quantity_json(quantity.of(row));
   if (!row.note.empty()) json["note"] = row.note;
   return json;

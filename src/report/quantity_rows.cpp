@@ -9,13 +9,6 @@
 namespace slipfit {
 namespace {
 
-/// "_N_s_per_m" of "N s/m": the end of a key.
-std::string suffix_of(std::string_view unit) {
-  std::string suffix = unit.empty() ? "" : "_";
-  for (const char c : unit) suffix += c == '/' ? std::string("_per_") : std::string(1, c == ' ' ? '_' : c);
-  return suffix;
-}
-
 std::vector<Quantity> make_quantities() {
   std::vector<Quantity> all;
   for (const ParameterInfo& parameter : parameter_table()) {
@@ -51,6 +44,12 @@ const Quantity& quantity_with_key(std::string_view key) {
 
 std::string full_words(const Quantity& quantity) {
   return (quantity.section == "coefficients" ? "coefficient of friction, " : "") + std::string(quantity.words);
+}
+
+std::string suffix_of(std::string_view unit) {
+  std::string suffix = unit.empty() ? "" : "_";
+  for (const char c : unit) suffix += c == '/' ? std::string("_per_") : std::string(1, c == ' ' ? '_' : c);
+  return suffix;
 }
 
 std::string key_of(const Quantity& quantity, std::string_view property) {

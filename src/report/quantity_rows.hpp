@@ -145,6 +145,8 @@ inline constexpr std::array kPattern{
     row<&Surface::cutoff_m>("surface", "cutoff_m", "cut-off wavelength of the waves", "m"),
     row<&Surface::smoothed_over_m>("surface", "smoothed_over_m", "ridges smoothed over", "m")};
 
+/// Returns the end of a key: "_N_s_per_m" of "N s/m".
+std::string suffix_of(std::string_view unit);
 /// "period_low_s" of "period_s" and "_low": the key of a property of the quantity.
 std::string key_of(const Quantity& quantity, std::string_view property);
 

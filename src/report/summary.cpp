@@ -11,11 +11,10 @@
 #include <vector>
 
 #include "analysis/rules.hpp"
-#include "report/document/check_document.hpp"
+#include "report/blocks.hpp"
 #include "report/document/json_node.hpp"
 #include "report/names.hpp"
 #include "report/quantity_rows.hpp"
-#include "report/text_sections.hpp"
 #include "slipfit/core/printable.hpp"
 #include "slipfit/report/sweep.hpp"
 #include "slipfit/report/text.hpp"
@@ -25,94 +24,58 @@ namespace {
 
 using documents::JsonNode;
 
-constexpr std::size_t kMostLines = 25;    // of a summary: one screen
-constexpr std::size_t kMostWarnings = 5;  // those with the largest effect
-constexpr std::size_t kMostFootnoteLines = 9;
-constexpr std::size_t kBelowSentences = 2;   // a blank line and the pointer to all results
-constexpr std::size_t kRoomForWarnings = 6;  // a blank line, a warning of two lines, and what is below it
-constexpr std::size_t kLongestName = 32;     // of a path in the headline; of a longer one the name of the file
-constexpr std::size_t kMostListed = 8;       // recordings of a sweep
-
 /// A sentence as a line of text ends: with a full stop.
 std::string sentence(std::string text) {
   if (!text.empty() && text.back() != '.') text += '.';
   return text;
 }
 
-/// The text up to its first semicolon where it is longer than two lines: `--details` has the whole.
-std::string shortened(const std::string& text) {
-  return text.size() > 2 * (kLineWidth - 4) ? text.substr(0, text.find(';')) : text;
-}
+/// The content of a summary, before it is fitted to the screen.
+struct Screen {
+  struct Row {
+    std::string label;
+    EstimateRow numbers;
+    std::string status;
+    std::string note;
+  };
+  std::string headline;
+  std::vector<Row> rows{};
+  std::vector<std::pair<std::string, std::string>> open{};  ///< parameters that are not determined, and why
+  std::vector<std::vector<std::string>> recordings{};       ///< of a sweep: rows of their table
+  std::string reason{};                                     ///< of the kind of motion
+  std::vector<std::string> sentences{};
+  Warnings warnings{};
 
-std::vector<std::string> footnote(std::size_t index, const std::string& note) {
-  return wrapped(fmt::format("  ({}) ", index + 1), sentence(printable(note)));
-}
-
-/// Collects rows and footnotes, then the lines below them until the screen is full.
-class Screen {
- public:
-  using Row = std::array<std::string, 4>;
-
-  explicit Screen(std::string headline) : headline_(std::move(headline)) {}
-
-  /// All rows are added before `number_notes`.
-  void add_row(std::string_view label, const EstimateRow& row, std::string status, const std::string& note) {
+  /// Adds a row; that of an identified parameter has no note.
+  void add_row(std::string_view label, EstimateRow numbers, std::string_view status, const std::string& note) {
     const bool is_noted = status != name_of(ParameterStatus::Identified);
-    rows_.push_back({std::string(label), value_text(row), row.interval, std::move(status)});
-    notes_of_rows_.push_back(is_noted ? note : std::string());
-    all_notes_.push_back(notes_of_rows_.back());
-  }
-  void add_parameter(const Parameter& parameter) {
-    const ParameterInfo& known = info(parameter.id);
-    EstimateRow row = parameter_row(parameter);
-    if (row.value == "-" && !row.interval.empty() && !row.unit.empty()) row.interval += " " + row.unit;
-    add_row(known.words, row, std::string(name_of(parameter.status)), parameter.estimate.note);
-  }
-  /// Adds a parameter that the data do not determine.
-  void add_open(std::string_view label, const std::string& reason) {
-    open_.emplace_back(label, reason);
-    all_notes_.push_back(reason);
-  }
-  /// Numbers the notes of the rows; a part that several notes have in common has one footnote.
-  void number_notes() {
-    std::size_t lines = 0;
-    for (const std::string& note : notes_of_rows_) {
-      for (const std::string& part : parts_of(note)) {
-        if (std::ranges::find(notes_, part) != notes_.end()) continue;
-        const std::size_t more = footnote(0, part).size();
-        if (lines + more > kMostFootnoteLines) continue;
-        lines += more;
-        notes_.push_back(part);
-      }
-    }
-    for (std::size_t i = 0; i < rows_.size(); ++i) {
-      rows_[i].back() += reference_to(notes_of_rows_[i]).numbers;
-    }
+    rows.push_back({std::string(label), std::move(numbers), std::string(status), is_noted ? note : std::string()});
   }
   /// Adds a measured quantity; nothing if its value is not known.
   void add_measured(const Quantity& quantity, const Estimate& estimate, const Conditions& conditions) {
     if (estimate.value) add_row(full_words(quantity), estimate_row(quantity, estimate, conditions), "measured", {});
   }
-  void add_recording(Row row) { recordings_.push_back(std::move(row)); }
-  void add_text(const std::string& text) {
-    if (!text.empty()) below_.push_back(wrapped("  ", text));
-  }
-  void add_open_parameters();
-  void add_warnings(const Warnings& warnings);
+};
 
-  [[nodiscard]] std::string text(const SummaryHints& hints) const;
-
- private:
-  /// Returns whether the clauses follow each other in every note that has one of them.
-  [[nodiscard]] bool always_together(const std::string& first, const std::string& second) const {
-    const auto has = [](const std::string& note, const std::string& clauses) {
-      return ("; " + note + "; ").find("; " + clauses + "; ") != std::string::npos;
-    };
-    return std::ranges::all_of(all_notes_, [&](const std::string& note) {
-      const bool has_both = has(note, first + "; " + second);
-      return has(note, first) == has_both && has(note, second) == has_both;
-    });
+/// The footnotes of a screen. A part that several notes have in common has one footnote.
+class SharedNotes {
+ public:
+  explicit SharedNotes(const Screen& screen) {
+    for (const Screen::Row& row : screen.rows) notes_.push_back(row.note);
+    for (const auto& [name, reason] : screen.open) notes_.push_back(reason);
+    constexpr std::size_t kMostLinesOfNotes = 9;
+    for (const Screen::Row& row : screen.rows) {
+      for (const std::string& part : parts_of(row.note)) {
+        if (std::ranges::find(footnotes_, part) != footnotes_.end()) continue;
+        const std::vector<std::string> lines =
+            wrapped(fmt::format("  ({}) ", footnotes_.size() + 1), sentence(printable(part)));
+        if (lines_.size() + lines.size() > kMostLinesOfNotes) continue;
+        lines_.insert(lines_.end(), lines.begin(), lines.end());
+        footnotes_.push_back(part);
+      }
+    }
   }
+
   /// Returns the note in parts: runs of its clauses that no note separates.
   [[nodiscard]] std::vector<std::string> parts_of(const std::string& note) const {
     std::vector<std::string> parts;
@@ -130,107 +93,131 @@ class Screen {
     }
     return parts;
   }
+
   /// A note as a reference to the footnotes that say it, and what none of them says.
   struct Reference {
     std::string numbers;  ///< " (1, 2)", or empty
     std::string rest;
   };
-  [[nodiscard]] Reference reference_to(const std::string& note) const {
-    Reference reference;
-    for (const std::string& part : parts_of(note)) {
+  [[nodiscard]] Reference reference_to(const std::vector<std::string>& parts) const {
+    std::vector<std::ptrdiff_t> numbers;
+    std::vector<std::string> rest;
+    for (const std::string& part : parts) {
       const auto says_it = [&](const std::string& footnote) { return footnote.find(part) != std::string::npos; };
-      const auto found = std::ranges::find_if(notes_, says_it);
-      if (found == notes_.end()) {
-        reference.rest += (reference.rest.empty() ? "" : "; ") + part;
-      } else {
-        reference.numbers += fmt::format("{}{}", reference.numbers.empty() ? " (" : ", ", found - notes_.begin() + 1);
-      }
+      const auto found = std::ranges::find_if(footnotes_, says_it);
+      found == footnotes_.end() ? rest.push_back(part) : numbers.push_back(found - footnotes_.begin() + 1);
     }
-    if (!reference.numbers.empty()) reference.numbers += ")";
-    return reference;
+    return {numbers.empty() ? "" : fmt::format(" ({})", fmt::join(numbers, ", ")),
+            fmt::format("{}", fmt::join(rest, "; "))};
+  }
+  [[nodiscard]] Reference reference_to(const std::string& note) const { return reference_to(parts_of(note)); }
+
+  [[nodiscard]] const std::vector<std::string>& lines() const { return lines_; }
+
+ private:
+  /// Returns whether the clauses follow each other in every note that has one of them.
+  [[nodiscard]] bool always_together(const std::string& first, const std::string& second) const {
+    const auto has = [](const std::string& note, const std::string& clauses) {
+      return ("; " + note + "; ").find("; " + clauses + "; ") != std::string::npos;
+    };
+    return std::ranges::all_of(notes_, [&](const std::string& note) {
+      const bool has_both = has(note, first + "; " + second);
+      return has(note, first) == has_both && has(note, second) == has_both;
+    });
   }
 
-  std::string headline_;
-  std::vector<Row> rows_;
-  std::vector<std::string> notes_of_rows_;                 ///< empty: none
-  std::vector<std::pair<std::string, std::string>> open_;  ///< parameters that are not determined, and why
-  std::vector<std::string> all_notes_;
-  std::vector<Row> recordings_;
-  std::vector<std::string> notes_;  ///< footnotes, in their order
-  std::vector<std::vector<std::string>> below_;
-  std::vector<std::vector<std::string>> warnings_;
-  std::size_t warnings_left_out_ = 0;
+  std::vector<std::string> notes_;
+  std::vector<std::string> footnotes_;  ///< parts, in their order
+  std::vector<std::string> lines_;
 };
 
 /// "Not determined: natural frequency w_n, damping ratio zeta: the slip has 4.1 samples.", each reason once.
-void Screen::add_open_parameters() {
+std::vector<std::string> open_parameters(const Screen& screen, const SharedNotes& notes) {
   struct Group {
-    std::string first;
     std::string names;
-    std::vector<std::string> parts;
+    std::vector<std::string> parts;  ///< of the reasons
   };
-  std::vector<Group> groups;
-  for (const auto& [name, reason] : open_) {
-    const std::vector<std::string> parts = parts_of(reason);
+  std::vector<std::pair<std::string, Group>> groups;  // by the first part
+  for (const auto& [name, reason] : screen.open) {
+    const std::vector<std::string> parts = notes.parts_of(reason);
     const std::string first = parts.empty() ? std::string() : parts.front();
-    auto group = std::ranges::find(groups, first, &Group::first);
-    if (group == groups.end()) group = groups.insert(group, Group{first, {}, {}});
-    group->names += (group->names.empty() ? "" : ", ") + name;
+    auto group = std::ranges::find(groups, first, [](const auto& one) { return one.first; });
+    if (group == groups.end()) group = groups.insert(group, {first, {}});
+    auto& [names, all] = group->second;
+    names += (names.empty() ? "" : ", ") + name;
     for (const std::string& part : parts) {
-      if (std::ranges::find(group->parts, part) == group->parts.end()) group->parts.push_back(part);
+      if (std::ranges::find(all, part) == all.end()) all.push_back(part);
     }
   }
-  for (const Group& group : groups) {
-    const Reference reason = reference_to(fmt::format("{}", fmt::join(group.parts, "; ")));
-    const std::string rest = reason.rest.empty() ? "" : ": " + printable(reason.rest);
-    add_text(sentence("Not determined: " + group.names + reason.numbers + rest));
+  std::vector<std::string> texts;
+  for (const auto& [first, group] : groups) {
+    const auto [numbers, rest] = notes.reference_to(fmt::format("{}", fmt::join(group.parts, "; ")));
+    texts.push_back(
+        sentence("Not determined: " + group.names + numbers + (rest.empty() ? "" : ": " + printable(rest))));
   }
+  return texts;
 }
 
-void Screen::add_warnings(const Warnings& warnings) {
+/// Returns the warnings with the largest effect, without what footnotes say, each in its lines.
+std::vector<std::vector<std::string>> warning_lines(const Warnings& warnings, const SharedNotes& notes) {
+  std::vector<std::vector<std::string>> all;
   for (const Warning& warning : by_effect(warnings)) {
-    const std::string message = is_fact(warning) ? std::string() : reference_to(warning.message).rest;
+    if (is_fact(warning)) continue;
+    std::string message = printable(notes.reference_to(warning.message).rest);
     if (message.empty()) continue;
-    if (warnings_.size() == kMostWarnings) {
-      ++warnings_left_out_;
-    } else {
-      warnings_.push_back(wrapped("  ! ", sentence(shortened(printable(message)))));
-    }
+    // What is longer than two lines ends at its first semicolon: `--details` has the whole.
+    if (message.size() > 2 * (kLineWidth - 4)) message = message.substr(0, message.find(';'));
+    all.push_back(wrapped("  ! ", sentence(message)));
   }
+  return all;
 }
 
-std::string Screen::text(const SummaryHints& hints) const {
-  std::string text = headline_ + "\n";
+std::string text_of(const Screen& screen, const SummaryHints& hints) {
+  constexpr std::size_t kMostLines = 25;       // of a summary: one screen
+  constexpr std::size_t kMostWarnings = 5;     // those with the largest effect
+  constexpr std::size_t kBelowSentences = 2;   // a blank line and the pointer to all results
+  constexpr std::size_t kRoomForWarnings = 6;  // a blank line, a warning of two lines, and what is below it
+  constexpr std::size_t kBelowWarnings = 3;    // a line for those left out, a blank one, and the pointer to all results
+  std::string text = screen.headline + "\n";
   std::size_t lines = 1;
   const auto put = [&](const std::string& line) {
     text += line + "\n";
     ++lines;
   };
-  const auto put_table = [&](const Row& head, const std::vector<Row>& rows) {
+  const auto put_table = [&](std::vector<std::string> head, const std::vector<std::vector<std::string>>& rows) {
     if (rows.empty()) return;
     Table table({Align::Left, Align::Right, Align::Left, Align::Left});
-    table.add({head.begin(), head.end()});
-    for (const Row& row : rows) table.add({row.begin(), row.end()});
+    table.add(std::move(head));
+    for (const std::vector<std::string>& row : rows) table.add(row);
     text += "\n" + table.text();
     lines += rows.size() + 2;
   };
-  put_table({"", "value", "95 % interval", "status"}, rows_);
-  put_table({"recording", "speed", std::string(kMeasured.front().words), "predicted from the others"}, recordings_);
-  if (!notes_.empty() || !below_.empty()) put("");
-  for (std::size_t i = 0; i < notes_.size(); ++i) {
-    for (const std::string& line : footnote(i, notes_[i])) put(line);
+  const SharedNotes notes(screen);
+  std::vector<std::vector<std::string>> rows;
+  for (const auto& [label, numbers, status, note] : screen.rows) {
+    rows.push_back({label, value_text(numbers), numbers.interval, status + notes.reference_to(note).numbers});
   }
-  for (const std::vector<std::string>& sentences : below_) {
-    if (lines + sentences.size() + (warnings_.empty() ? kBelowSentences : kRoomForWarnings) > kMostLines) continue;
-    for (const std::string& line : sentences) put(line);
+  put_table({"", "value", "95 % interval", "status"}, rows);
+  put_table({"recording", "speed", std::string(kMeasured.front().words), "predicted from the others"},
+            screen.recordings);
+  std::vector<std::string> below = open_parameters(screen, notes);
+  below.insert(below.begin(), screen.reason);
+  below.insert(below.end(), screen.sentences.begin(), screen.sentences.end());
+  std::erase(below, "");
+  const std::vector<std::vector<std::string>> warnings = warning_lines(screen.warnings, notes);
+  if (!notes.lines().empty() || !below.empty()) put("");
+  for (const std::string& line : notes.lines()) put(line);
+  for (const std::string& sentences : below) {
+    const std::vector<std::string> part = wrapped("  ", sentences);
+    if (lines + part.size() + (warnings.empty() ? kBelowSentences : kRoomForWarnings) > kMostLines) continue;
+    for (const std::string& line : part) put(line);
   }
-  std::size_t left_out = warnings_left_out_;
-  if (!warnings_.empty()) put("");
-  constexpr std::size_t kBelowWarnings = 3;  // a line for those left out, a blank one, and the pointer to all results
-  for (const std::vector<std::string>& warning : warnings_) {
-    const bool fits = lines + warning.size() + kBelowWarnings <= kMostLines || &warning == &warnings_.front();
+  if (!warnings.empty()) put("");
+  std::size_t left_out = 0;
+  for (std::size_t i = 0; i < warnings.size(); ++i) {
+    const bool fits = i < kMostWarnings && (i == 0 || lines + warnings[i].size() + kBelowWarnings <= kMostLines);
     if (!fits) ++left_out;
-    for (std::size_t i = 0; fits && i < warning.size(); ++i) put(warning[i]);
+    for (const std::string& line : fits ? warnings[i] : std::vector<std::string>{}) put(line);
   }
   if (left_out > 0)
     put(fmt::format("  ! {} more {}: {}", left_out, left_out == 1 ? "warning" : "warnings", hints.details));
@@ -284,7 +271,7 @@ std::vector<Parameter> parameters_of(const JsonNode& document) {
   std::vector<Parameter> parameters;
   for (const ParameterInfo& known : parameter_table()) {
     const std::optional<JsonNode> found = document.known("parameters", std::string(known.key));
-    const auto status = found ? with_name(kParameterStatuses, found->text_at("status")) : std::nullopt;
+    const auto status = found ? with_name<ParameterStatus>(found->text_at("status")) : std::nullopt;
     if (status) parameters.push_back({known.id, found->estimate(), *status});
   }
   return parameters;
@@ -296,8 +283,8 @@ Estimate estimate_of(const JsonNode& document, const Quantity& quantity) {
 
 std::string terms_text(const JsonNode& document) {
   std::string terms;
-  for (const JsonNode& term : document.elements("model", "terms")) {
-    const std::vector<JsonNode> keys = term.elements("parameters");  // none: a fact
+  for (const JsonNode& term : document.elements_of("model", "terms")) {
+    const std::vector<JsonNode> keys = term.elements_of("parameters");  // none: a fact
     const std::optional<ParameterId> first = keys.empty() ? std::nullopt : parameter_with_key(keys.front().text());
     if (first && !is_headline(*first)) terms += (terms.empty() ? "" : "; ") + term.text_at("text");
   }
@@ -334,11 +321,16 @@ std::string facts_text(const Warnings& warnings) {
 
 void add_parameters(Screen& screen, const SummaryInput& input) {
   for (const Parameter& parameter : input.parameters) {
-    const bool is_known = parameter.status != ParameterStatus::Unidentified;
-    const bool has_zero = input.zero_is_known || !info(parameter.id).depends_on_sensor_zero;
+    const ParameterInfo& known = info(parameter.id);
+    const std::string& note = parameter.estimate.note;
     if (!is_headline(parameter.id)) continue;
-    if (!is_known) screen.add_open(info(parameter.id).words, parameter.estimate.note);
-    if (is_known && has_zero) screen.add_parameter(parameter);
+    if (parameter.status == ParameterStatus::Unidentified) {
+      screen.open.emplace_back(known.words, note);
+    } else if (input.zero_is_known || !known.depends_on_sensor_zero) {
+      EstimateRow row = parameter_row(parameter);
+      if (row.value == "-" && !row.interval.empty() && !row.unit.empty()) row.interval += " " + row.unit;
+      screen.add_row(known.words, row, name_of(parameter.status), note);
+    }
   }
 }
 
@@ -350,8 +342,7 @@ void add_critical_speed(Screen& screen, const SummaryInput& input) {
   const auto zeta = std::ranges::find(input.parameters, ParameterId::DampingRatio, &Parameter::id);
   const bool is_fitted = zeta != input.parameters.end();
   screen.add_row(quantity.words, estimate_row(quantity, critical, input.conditions),
-                 is_fitted ? std::string(name_of(zeta->status)) : "derived",
-                 is_fitted ? zeta->estimate.note : critical.note);
+                 is_fitted ? name_of(zeta->status) : "derived", is_fitted ? zeta->estimate.note : critical.note);
 }
 
 /// Adds the properties of the cycles that need no fit.
@@ -363,21 +354,26 @@ void add_cycles(Screen& screen, const SummaryInput& input) {
   }
 }
 
-void add_below_table(Screen& screen, const SummaryInput& input) {
-  screen.add_open_parameters();
-  screen.add_text(residual_sentence(input.document, input.conditions.quantity));
-  screen.add_text(terms_text(input.document));
+void add_sentences(Screen& screen, const SummaryInput& input) {
+  if (input.document.has("model")) {
+    screen.sentences.push_back(residual_sentence(input.document, input.conditions.quantity));
+    screen.sentences.push_back(terms_text(input.document));
+  }
+  screen.sentences.push_back(facts_text(input.warnings));
 }
 
 MotionClass motion_of(const JsonNode& document) {
-  return with_name(kMotions, document.text_at("status")).value_or(MotionClass::Undetermined);
+  return with_name<MotionClass>(document.text_at("status")).value_or(MotionClass::Undetermined);
 }
 
 std::string headline_of(const JsonNode& document, const Conditions& conditions) {
+  constexpr std::size_t kLongestName = 32;  // of a path; of a longer one the name of the file
+  constexpr std::array<std::string_view, kNames<MotionClass>.size()> kWords{
+      "stick-slip", "steady sliding, no stick-slip", "oscillatory slip (almost no sticks)", "motion undetermined"};
   std::string file = document.member("recording").text_at("file");
   if (file.size() > kLongestName) file = std::filesystem::path(file).filename().string();
-  std::string text =
-      fmt::format("{}: {}", file.empty() ? "recording" : printable(file), words_for_motion(motion_of(document)));
+  std::string text = fmt::format("{}: {}", file.empty() ? "recording" : printable(file),
+                                 kWords.at(static_cast<std::size_t>(motion_of(document))));
   const Estimate frequency = estimate_of(document, kFrequency);
   if (frequency.value) {
     const EstimateRow row = estimate_row(frequency, std::string("Hz"));
@@ -388,10 +384,10 @@ std::string headline_of(const JsonNode& document, const Conditions& conditions) 
   return text + ", driven at " + speed_text(conditions);
 }
 
-std::string summary_of_recording(const SummaryInput& input, const SummaryHints& hints) {
+Screen screen_of_recording(const SummaryInput& input) {
   const JsonNode& document = input.document;
   const MotionClass motion = motion_of(document);
-  Screen screen(headline_of(document, input.conditions));
+  Screen screen{headline_of(document, input.conditions)};
   const bool has_slips = motion != MotionClass::SteadySliding;
   const bool is_fitted = document.has("model");
   if (is_fitted && has_slips) add_parameters(screen, input);
@@ -399,59 +395,55 @@ std::string summary_of_recording(const SummaryInput& input, const SummaryHints& 
   add_critical_speed(screen, input);
   for (const Quantity& row : kCoefficients) screen.add_measured(row, estimate_of(document, row), input.conditions);
   const std::string reason = document.text_at("status_reason");
-  if (motion != MotionClass::StickSlip && !reason.empty()) screen.add_text(sentence("Reason: " + printable(reason)));
+  if (motion != MotionClass::StickSlip && !reason.empty()) screen.reason = sentence("Reason: " + printable(reason));
   if (!is_fitted && has_slips) add_cycles(screen, input);
-  screen.number_notes();
-  if (is_fitted && has_slips) add_below_table(screen, input);
-  screen.add_text(facts_text(input.warnings));
-  screen.add_warnings(input.warnings);
-  return screen.text(hints);
+  if (has_slips) {
+    add_sentences(screen, input);
+  } else {
+    screen.sentences = {facts_text(input.warnings)};
+  }
+  return screen;
 }
 
-void add_recordings(Screen& screen, const std::vector<JsonNode>& recordings) {
+Screen screen_of_sweep(const SummaryInput& input, const std::vector<JsonNode>& recordings) {
+  const std::string name = printable(input.document.text_at("id"));
+  if (!input.document.has("model")) {
+    Screen screen{fmt::format("{}: {} recordings, no joint fit", name, recordings.size())};
+    screen.reason = sentence("Reason: " + input.document.text_at("status_reason"));
+    return screen;
+  }
+  Screen screen{fmt::format("{}: {} recordings fitted together", name, recordings.size())};
+  add_parameters(screen, input);
+  add_critical_speed(screen, input);
+  add_sentences(screen, input);
+  constexpr std::size_t kMostListed = 8;
+  if (recordings.size() > kMostListed) return screen;
   for (const JsonNode& recording : recordings) {
     const std::string motion = recording.text_at("status");
     const auto predicted = recording.known("joint", "spacing_left_out_m");
-    screen.add_recording({printable(recording.text_at("id")), speed_text(conditions_of(recording.member("recording"))),
-                          motion == name_of(MotionClass::StickSlip)
-                              ? estimate_text(estimate_of(recording, kMeasured.front()), "m")
-                              : plain_words(motion),
-                          estimate_text(predicted ? predicted->estimate() : Estimate{}, "m")});
+    screen.recordings.push_back(
+        {printable(recording.text_at("id")), speed_text(conditions_of(recording.member("recording"))),
+         motion == name_of(MotionClass::StickSlip) ? estimate_text(estimate_of(recording, kMeasured.front()), "m")
+                                                   : plain_words(motion),
+         estimate_text(predicted ? predicted->estimate() : Estimate{}, "m")});
   }
-}
-
-std::string summary_of_sweep(SummaryInput input, const std::vector<JsonNode>& recordings, const SummaryHints& hints) {
-  const std::string name = printable(input.document.text_at("id"));
-  if (!input.document.has("model")) {
-    Screen screen(fmt::format("{}: {} recordings, no joint fit", name, recordings.size()));
-    screen.add_text(sentence("Reason: " + input.document.text_at("status_reason")));
-    screen.add_warnings(input.warnings);
-    return screen.text(hints);
-  }
-  Screen screen(fmt::format("{}: {} recordings fitted together", name, recordings.size()));
-  add_parameters(screen, input);
-  add_critical_speed(screen, input);
-  screen.number_notes();
-  add_below_table(screen, input);
-  screen.add_text(facts_text(input.warnings));
-  if (recordings.size() <= kMostListed) add_recordings(screen, recordings);
-  screen.add_warnings(input.warnings);
-  return screen.text(hints);
+  return screen;
 }
 
 std::string summary_of(const JsonNode& document, const SummaryHints& hints) {
   SummaryInput input{document, {}, parameters_of(document), documents::warnings_in(document)};
-  if (!document.has("recordings")) {
-    input.conditions = conditions_of(document.member("recording"));
-    input.zero_is_known = input.conditions.zero_force_N.has_value();
-    return summary_of_recording(input, hints);
-  }
-  const std::vector<JsonNode> recordings = document.elements("recordings");
-  input.zero_is_known = std::ranges::all_of(
-      recordings, [](const JsonNode& one) { return one.member("recording").number_at("zero_force_N").has_value(); });
+  const bool is_sweep = document.has("recordings");
+  const std::vector<JsonNode> recordings =
+      is_sweep ? document.elements_of("recordings") : std::vector<JsonNode>{document};
+  const auto states_zero = [](const JsonNode& one) {
+    return one.member("recording").number_at("zero_force_N").has_value();
+  };
+  input.zero_is_known = std::ranges::all_of(recordings, states_zero);
   if (!recordings.empty()) input.conditions = conditions_of(recordings.front().member("recording"));
-  input.conditions.quantity = ForceQuantity::Force_N;
-  return summary_of_sweep(std::move(input), recordings, hints);
+  if (is_sweep) input.conditions.quantity = ForceQuantity::Force_N;
+  Screen screen = is_sweep ? screen_of_sweep(input, recordings) : screen_of_recording(input);
+  screen.warnings = input.warnings;
+  return text_of(screen, hints);
 }
 
 /// Returns `view(document)` of a document that this library wrote.

@@ -103,11 +103,6 @@ TEST_CASE("JSON in a script element cannot end it") {
         "\"\\u003c/script\\u003e\\u0026\\u2028\\u2029\"");
 }
 
-TEST_CASE("a template's values are not searched for names again") {
-  CHECK(slipfit::html::filled("a {{one}} b {{two}} {{three}}", {{"one", "{{two}}"}, {"two", "2"}}) ==
-        "a {{two}} b 2 {{three}}");
-}
-
 TEST_CASE("steady sliding: words in place of cycles, parameters and pattern") {
   const slipfit::Recording recording = sawtooth();
   slipfit::Analysis analysis = fitted(recording);

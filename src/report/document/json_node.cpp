@@ -1,9 +1,14 @@
 #include "report/document/json_node.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <algorithm>
+#include <cmath>
 
+#include "report/names.hpp"
 #include "slipfit/core/printable.hpp"
+#include "slipfit/core/range.hpp"
+#include "slipfit/fit/parameter.hpp"
 #include "slipfit/report/fit_document.hpp"
 
 using nlohmann::json;
@@ -56,22 +61,11 @@ JsonNode JsonNode::member(const std::string& key) const {
   return {file_, *found, place_of(key)};
 }
 
-std::optional<JsonNode> JsonNode::known(const std::string& key) const {
-  return has(key) && !member(key).is_null() ? std::optional(member(key)) : std::nullopt;
-}
-
-std::optional<JsonNode> JsonNode::known(const std::string& key, const std::string& further) const {
-  const std::optional<JsonNode> found = known(key);
-  return found ? found->known(further) : std::nullopt;
-}
-
-JsonNode JsonNode::element(std::size_t index) const {
-  return {file_, content_.at(index), fmt::format("{}[{}]", place_, index)};
-}
-
-std::size_t JsonNode::array_size() const {
-  if (!content_.is_array()) fail("a list");
-  return content_.size();
+std::vector<JsonNode> JsonNode::elements(std::optional<std::size_t> length, const std::string& expected) const {
+  if (!content_.is_array() || (length && content_.size() != *length)) fail(expected);
+  std::vector<JsonNode> all;
+  for (const json& element : content_) all.push_back({file_, element, fmt::format("{}[{}]", place_, all.size())});
+  return all;
 }
 
 std::string JsonNode::text() const {
@@ -85,10 +79,10 @@ std::optional<double> JsonNode::number(const std::string& expected) const {
   return content_.get<double>();
 }
 
-double JsonNode::positive() const {
-  const std::optional<double> value = number("a number > 0");
-  if (!value || !(*value > 0.0)) fail("a number > 0");
-  return *value;
+std::optional<double> JsonNode::not_negative() const {
+  const std::optional<double> value = number();
+  if (value && !(*value >= 0.0)) fail("a number >= 0 or null");
+  return value;
 }
 
 std::vector<JsonNode::Member> JsonNode::members() const {
@@ -117,7 +111,8 @@ std::optional<double> JsonNode::number_at(const std::string& key) const {
 Estimate JsonNode::estimate(const std::string& suffix) const {
   Estimate estimate{number_at("value" + suffix), number_at("se" + suffix), {}, text_at("note")};
   if (const auto bounds = known("ci95" + suffix)) {
-    estimate.ci95 = Interval{*bounds->element(0).number(), *bounds->element(1).number()};
+    const std::vector<JsonNode> ends = bounds->elements();  // two numbers, as check_document demands
+    estimate.ci95 = Interval{*ends[0].number(), *ends[1].number()};
   }
   return estimate;
 }
@@ -132,6 +127,69 @@ void JsonNode::fail(const std::string& expected) const {
 
 std::string JsonNode::place_of(const std::string& key) const {
   return place_.empty() ? key : place_ + "." + key;
+}
+
+namespace {
+
+/// Refuses a text that is not the name of a choice.
+template <class Choice>
+void check_name(const JsonNode& node) {
+  if (!with_name<Choice>(node.text())) node.fail(fmt::format("one of {}", fmt::join(kNames<Choice>, ", ")));
+}
+
+/// The interval, and the value next to it whose key has the same ending (value_Hz and ci95_Hz).
+void check_interval(const JsonNode& estimate, const JsonNode& interval, const std::string& ending) {
+  if (interval.is_null()) return;
+  const std::string expected = "[low, high] with low <= high, or null";
+  const std::vector<JsonNode> ends = interval.elements(2, expected);
+  const std::optional<double> low = ends[0].number();
+  const std::optional<double> high = ends[1].number();
+  if (!low || !high || !(*low <= *high)) interval.fail(expected);
+  const std::optional<JsonNode> node = estimate.known("value" + ending);
+  const std::optional<double> value = node ? node->number() : std::nullopt;
+  if (value && !(*low <= *value && *value <= *high)) {
+    node->fail(fmt::format("a number of its interval, {} to {}", *low, *high));
+  }
+}
+
+/// The numbers of a value and of all that it holds.
+void check_numbers(const JsonNode& node) {
+  if (node.is_number() && !is_finite(*node.number())) {
+    node.fail(fmt::format("a number of at most {:g}", kLargestNumber));
+  }
+  for (const JsonNode& element : node.is_array() ? node.elements() : std::vector<JsonNode>{}) check_numbers(element);
+  for (const auto& [key, member] : node.members()) {
+    check_numbers(member);
+    constexpr std::string_view kInterval = "ci95";
+    if (key == "se" || key.starts_with("se_")) (void)member.not_negative();
+    if (key.starts_with(kInterval)) check_interval(node, member, key.substr(kInterval.size()));
+  }
+}
+
+void check_parameter(const std::string& key, const JsonNode& parameter) {
+  if (!parameter.has("status")) return;
+  check_name<ParameterStatus>(parameter.member("status"));
+  const std::optional<ParameterId> id = parameter_with_key(key);
+  const std::optional<JsonNode> node = parameter.known("value");
+  if (!id || !node) return;
+  const Range& range = info(*id).range;
+  const std::optional<double> value = node->number();
+  if (value && !(range.low <= *value && *value <= range.high)) {
+    node->fail(std::isfinite(range.high) ? fmt::format("a number from {} to {}", range.low, range.high)
+                                         : fmt::format("a number >= {}", range.low));
+  }
+}
+
+}  // namespace
+
+void check_document(const JsonNode& document) {
+  if (const JsonNode schema = document.member("schema"); schema.text() != "slipfit.fit/1") schema.fail("slipfit.fit/1");
+  if (const auto status = document.known("status")) check_name<MotionClass>(*status);
+  if (const auto parameters = document.known("parameters")) {
+    if (!parameters->is_object()) parameters->fail("an object");
+    for (const auto& [key, parameter] : parameters->members()) check_parameter(key, parameter);
+  }
+  check_numbers(document);
 }
 
 std::optional<DocumentQuantity> quantity_in(const JsonNode& document, const Quantity& quantity) {
@@ -154,7 +212,7 @@ std::optional<DocumentQuantity> quantity_in(const JsonNode& document, const Quan
 
 Warnings warnings_in(const JsonNode& document) {
   Warnings warnings;
-  for (const JsonNode& warning : document.elements("warnings"))
+  for (const JsonNode& warning : document.elements_of("warnings"))
     warnings.push_back({warning.member("code").text(), warning.member("message").text()});
   return warnings;
 }

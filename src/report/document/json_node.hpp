@@ -9,7 +9,7 @@
 
 #include "core/thrown_error.hpp"
 #include "slipfit/core/estimate.hpp"
-#include "slipfit/core/recording.hpp"
+#include "slipfit/core/result.hpp"
 #include "slipfit/report/quantities.hpp"
 
 namespace slipfit::documents {
@@ -33,28 +33,46 @@ class JsonNode {
   [[nodiscard]] bool is_array() const { return content_.is_array(); }
   [[nodiscard]] bool has(const std::string& key) const { return content_.contains(key); }
   [[nodiscard]] JsonNode member(const std::string& key) const;
-  /// The member, where there is one and it is not null.
-  [[nodiscard]] std::optional<JsonNode> known(const std::string& key) const;
-  /// Returns a member of that member if it is not null.
-  [[nodiscard]] std::optional<JsonNode> known(const std::string& key, const std::string& further) const;
+  /// A member of that member, and so on.
+  template <class... Keys>
+  [[nodiscard]] JsonNode member(const std::string& key, const Keys&... further) const {
+    return member(key).member(further...);
+  }
+  /// The member (of that member, and so on), where there is one and it is not null.
+  template <class... Keys>
+  [[nodiscard]] std::optional<JsonNode> known(const std::string& key, const Keys&... further) const {
+    if (!has(key) || member(key).is_null()) return std::nullopt;
+    if constexpr (sizeof...(further) > 0) return member(key).known(further...);
+    return member(key);
+  }
   /// Returns the members, or nothing if the node is not an object.
   [[nodiscard]] std::vector<Member> members() const;
-  [[nodiscard]] JsonNode element(std::size_t index) const;  ///< index < array_size()
-  [[nodiscard]] std::size_t array_size() const;
-  /// Returns the elements of a list that may be absent: a member, or a member of that member.
+  /// Returns the elements of a list; `length`: that the list must have.
+  [[nodiscard]] std::vector<JsonNode> elements(std::optional<std::size_t> length = {},
+                                               const std::string& expected = "a list") const;
+  /// Returns the elements of a list that may be absent.
   template <class... Keys>
-  [[nodiscard]] std::vector<JsonNode> elements(const Keys&... keys) const {
+  [[nodiscard]] std::vector<JsonNode> elements_of(const Keys&... keys) const {
     const std::optional<JsonNode> list = known(keys...);
-    std::vector<JsonNode> all;
-    for (std::size_t i = 0; list && i < list->array_size(); ++i) all.push_back(list->element(i));
-    return all;
+    return list ? list->elements() : std::vector<JsonNode>{};
   }
   [[nodiscard]] std::string text() const;
   /// The value as JSON on one line.
   [[nodiscard]] std::string json_text() const { return content_.dump(); }
   /// Returns the number, or nothing if the node is null.
   [[nodiscard]] std::optional<double> number(const std::string& expected = "a number or null") const;
-  [[nodiscard]] double positive() const;
+  /// Returns the number, which must be there and obey the rule that `expected` states.
+  template <class Rule>
+  [[nodiscard]] double number_that(const Rule& is_right, const std::string& expected) const {
+    const std::optional<double> value = number(expected);
+    if (!value || !is_right(*value)) fail(expected);
+    return *value;
+  }
+  [[nodiscard]] double positive() const {
+    return number_that([](double value) { return value > 0.0; }, "a number > 0");
+  }
+  /// Returns the number, which is not negative, or nothing if the node is null.
+  [[nodiscard]] std::optional<double> not_negative() const;
   /// Returns the flag, or nothing if the node is null.
   [[nodiscard]] std::optional<bool> flag() const;
   /// Returns the text or the number of a member that may be absent.
@@ -78,6 +96,24 @@ struct JsonNode::Member {
   std::string key;
   JsonNode node;
 };
+
+/// Checks the properties that every reader of a fit document relies on: its schema; known statuses; values of
+/// parameters in their ranges; standard errors that are not negative; intervals with low <= value <= high; numbers of a
+/// size that can be squared and multiplied. Throws ThrownError with the code bad_document.
+void check_document(const JsonNode& document);
+
+/// Returns `read(document)` of a checked document, or the error.
+template <class Value, class Read>
+Result<Value> with_document(const std::string& content, const std::string& name, const Read& read) {
+  try {
+    const nlohmann::json json = parse_document(content, name);
+    const JsonNode document(name, json);
+    check_document(document);
+    return read(document);
+  } catch (const ThrownError& refused) {
+    return refused.error();
+  }
+}
 
 /// A quantity as a document states it, in SI.
 struct DocumentQuantity {

@@ -10,7 +10,7 @@
 #include "chart/chart.hpp"
 #include "io/message.hpp"
 #include "report/batch_html.hpp"
-#include "report/document/check_document.hpp"
+#include "report/document/json_node.hpp"
 #include "report/html/assets.hpp"
 #include "report/html/figure.hpp"
 #include "report/html/page.hpp"
@@ -89,10 +89,9 @@ std::optional<chart::Panel> histogram(std::vector<double> values, std::string la
   for (const double value : values) {
     counts[std::min(bins - 1, static_cast<std::size_t>(std::log(value / first) / step))] += 1.0;
   }
-  chart::Panel panel;
-  panel.height_px = 160.0;
-  panel.x = {label, first, first * std::exp(step * static_cast<double>(bins)), chart::Scale::Logarithmic};
-  panel.y = {"recordings", 0.0, 1.1 * *std::ranges::max_element(counts)};
+  chart::Panel panel{.x = {label, first, first * std::exp(step * static_cast<double>(bins)), chart::Scale::Logarithmic},
+                     .y = {"recordings", 0.0, 1.1 * *std::ranges::max_element(counts)},
+                     .height_px = 160.0};
   for (std::size_t i = 0; i < bins; ++i) {
     const double left = first * std::exp(step * static_cast<double>(i));
     const double right = left * std::exp(step);
@@ -132,7 +131,7 @@ std::string left_out_part(std::size_t rows, const char* file) {
 
 std::string failures_part(const std::vector<BatchPageFailure>& failures) {
   if (failures.empty()) return {};
-  std::vector<std::vector<std::string>> rows;
+  std::vector<std::vector<Cell>> rows;
   for (const BatchPageFailure& failure : std::span(failures).first(std::min(kMostRows, failures.size()))) {
     rows.push_back({text(failure.id), text(failure.message), "<code>" + text(failure.code) + "</code>"});
   }
@@ -207,7 +206,8 @@ std::string batch_row(const BatchPageRow& row) {
       spark(row.sparkline), text(plain_words(row.status)), speed,
       row.speed_m_per_s ? fmt::format("{:.6g}", 1e3 * *row.speed_m_per_s) : std::string("-"));
   for (std::size_t i = 0; i < kColumns.size(); ++i) {
-    cells += quantity_cell(row.quantities[i].estimate, kColumns[i].per_SI, row.quantities[i].status);
+    const Cell cell = quantity_cell(row.quantities[i].estimate, kColumns[i].per_SI, row.quantities[i].status);
+    cells += fmt::format("<td class=\"number\"{}>{}</td>", cell.attributes, cell.content);
   }
   std::string codes;
   for (const std::string& code : row.warnings) codes += "<span>" + text(code) + " </span>";
@@ -242,11 +242,10 @@ std::string to_html(const BatchPage& page) {
   parts.title = page.title;
   parts.kind = "batch";
   parts.headline = html::summary_of(page, counts);
-  parts.main =
-      html::filled(assets::table_part(), {{"statuses", html::options_of(counts)},
-                                          {"table", html::table_of(page.rows)},
-                                          {"left_out", html::left_out_part(page.rows.size(), "results.jsonl")}}) +
-      html::distributions(page.rows) + html::failures_part(page.failures);
+  parts.main = fmt::format(fmt::runtime(assets::table_part()), fmt::arg("statuses", html::options_of(counts)),
+                           fmt::arg("table", html::table_of(page.rows)),
+                           fmt::arg("left_out", html::left_out_part(page.rows.size(), "results.jsonl"))) +
+               html::distributions(page.rows) + html::failures_part(page.failures);
   parts.scripts = html::script_element(assets::table_script());
   return html::page_from(parts);
 }

@@ -5,7 +5,7 @@
 #include "chart/svg.hpp"
 #include "report/html/figure.hpp"
 #include "report/html/speed_figures.hpp"
-#include "report/json_sections.hpp"
+#include "report/json_values.hpp"
 #include "slipfit/report/html.hpp"
 #include "slipfit/report/sweep_html.hpp"
 

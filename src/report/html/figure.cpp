@@ -40,6 +40,10 @@ std::string unbroken(const std::string& quantity) {
   return result;
 }
 
+chart::Line line_up(const chart::Panel& panel, const std::string& name, double x, chart::Colour colour) {
+  return {name, colour, chart::Stroke::Dashed, {{x, panel.y.low}, {x, panel.y.high}}};
+}
+
 chart::Area rectangle(std::string name, chart::Colour colour, chart::Point low, chart::Point high) {
   return {std::move(name), colour, chart::Fill::Plain, {low, {low.x, high.y}, high, {high.x, low.y}}, kEdge_px};
 }
@@ -49,6 +53,10 @@ void Span::add(double value) {
   const bool is_first = empty();
   low_ = is_first ? value : std::min(low_, value);
   high_ = is_first ? value : std::max(high_, value);
+}
+
+void Span::add(const std::vector<chart::Point>& points, double chart::Point::*coordinate) {
+  for (const chart::Point& point : points) add(point.*coordinate);
 }
 
 double Span::range() const {

@@ -85,8 +85,6 @@ inline constexpr std::string_view kOverlayGuide =
     "against drive displacement, where the slope of the sticks is the stiffness at any speed; bottom, if the samples "
     "resolve them: slips against time, whose shape determines natural frequency and damping.";
 
-inline constexpr std::size_t kMostCyclesOfASet = 24;
-
 /// Cycles of all sets, about as many of each, and the fit of a typical cycle if the source of the only recording is
 /// given. At least one of the sets has cycles.
 chart::Chart overlay_of(const std::string& title, const std::vector<OverlaidSet>& sets, const Source* fitted = nullptr);
@@ -106,6 +104,9 @@ std::string unbroken(const std::string& quantity);
 /// A line of this width around an area of a page.
 constexpr double kEdge_px = 0.8;
 
+/// A dashed line through a panel, whose axes are complete, from the bottom to the top.
+chart::Line line_up(const chart::Panel& panel, const std::string& name, double x, chart::Colour colour);
+
 /// A plain rectangle between two corners, with an edge.
 chart::Area rectangle(std::string name, chart::Colour colour, chart::Point low, chart::Point high);
 
@@ -113,6 +114,7 @@ chart::Area rectangle(std::string name, chart::Colour colour, chart::Point low, 
 class Span {
  public:
   void add(double value);
+  void add(const std::vector<chart::Point>& points, double chart::Point::*coordinate = &chart::Point::y);
   [[nodiscard]] bool empty() const { return !(low_ <= high_); }
   [[nodiscard]] double low() const { return low_; }
   [[nodiscard]] double high() const { return high_; }
@@ -129,38 +131,27 @@ class Span {
   double high_ = 0.0;
 };
 
+/// Start and end of a slip, by the fit where it has it, else by the turning points.
+inline double slip_begin_s(const Cycle& cycle) {
+  return cycle.onset_s.value_or(cycle.peak_s);
+}
+inline double slip_end_s(const Cycle& cycle) {
+  return cycle.end_s.value_or(cycle.trough_s);
+}
+
 SampleRange samples_between(const Recording& recording, double begin_s, double end_s);
 
 /// At most 2 * `columns` points: the lowest and the highest of each column, in order of time; all where they are fewer.
 /// Not finite values are passed over.
 std::vector<chart::Point> envelope(std::span<const double> x, std::span<const double> y, std::size_t columns);
 
-/// The reference point of a cycle: the onset and F_k by the fit, otherwise the turning points.
-struct Anchor {
-  double time_s = 0.0;
-  double force = 0.0;
-  double height = 0.0;  ///< of the peak above it, for the typical cycle
-};
-
-struct Stack {
-  std::vector<Anchor> anchors;  ///< evenly chosen
-  Anchor typical;               ///< of median height
-  bool on_kinetic_level = false;
-};
-Stack stack_of(const Analysis& analysis, std::size_t most_cycles);
-
-/// A window around the slip, in s.
-struct CycleWindow {
-  double before_s = 0.0;
-  double after_s = 0.0;
-};
-/// Whole cycles; where the slip is resolved, the slip close up. Empty where there is no period.
-std::vector<CycleWindow> windows_of(const CycleStatistics& cycles, double sample_interval_s);
-
-/// One cycle of `force`, laid on its anchor: seconds, and the force in the source's unit.
-std::vector<chart::Point> laid(const Source& source, std::span<const double> force, const Anchor& anchor,
-                               CycleWindow window);
-/// Returns all cycles of the stack as one line with gaps.
-chart::Line laid_cycles(const Source& source, const Stack& stack, CycleWindow window);
+/// The items themselves, or as many as `most` of them at even distances.
+template <class Item>
+std::vector<Item> evenly_chosen(const std::vector<Item>& items, std::size_t most) {
+  if (items.size() <= most) return items;
+  std::vector<Item> chosen;
+  for (std::size_t i = 0; i < most; ++i) chosen.push_back(items[i * items.size() / most]);
+  return chosen;
+}
 
 }  // namespace slipfit::html

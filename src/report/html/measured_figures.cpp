@@ -16,53 +16,46 @@ namespace {
 
 using chart::Colour, chart::Panel, chart::Point, chart::Shape, chart::Stroke;
 
-constexpr std::size_t kCyclesClose = 5;   // seen close up
-constexpr std::size_t kFewSamples = 150;  // of the close-up: so few are drawn one by one
-
-/// A piece of the recording in the units of the chart.
-struct Piece {
-  std::vector<double> time_s, force, fitted, residual;
-  std::size_t columns = 0;  ///< that are drawn, each with its extremes
-};
-
-Piece cut(const Source& source, SampleRange range) {
-  const Recording& recording = source.recording;
-  const std::vector<double>& fitted = source.fitted;
-  const double scale = source.force_unit.per_SI;
-  Piece piece;
-  piece.columns = source.trace_columns;
-  for (std::size_t i = range.begin; i < range.end; ++i) {
-    piece.time_s.push_back(recording.time_s()[i]);
-    piece.force.push_back(scale * recording.force()[i]);
-    piece.fitted.push_back(scale * fitted[i]);
-    piece.residual.push_back(scale * (recording.force()[i] - fitted[i]));
-  }
-  return piece;
+/// A force over the time of a part of the recording, in the unit of the chart; `at`: its value at a sample, in SI.
+template <class At>
+std::vector<Point> over_time(const Source& source, SampleRange range, At at) {
+  std::vector<double> values;
+  for (std::size_t i = range.begin; i < range.end; ++i) values.push_back(source.force_unit.per_SI * at(i));
+  return envelope(range.of(source.recording.time_s()), values, source.trace_columns);
 }
 
-chart::Axis axis_of(const std::vector<Point>& points, const std::string& label) {
+/// A panel over the time of a part of the recording, as high as its first line.
+Panel time_panel(const Source& source, SampleRange range, const std::string& label, std::vector<chart::Line> lines) {
+  const std::span<const double> time_s = range.of(source.recording.time_s());
   Span span;
-  for (const Point& point : points) span.add(point.y);
-  return span.linear_axis(label);
+  span.add(lines.front().points);
+  return {.x = {"time [s]", time_s.front(), time_s.back()}, .y = span.linear_axis(label), .lines = std::move(lines)};
 }
 
-chart::Axis time_axis(const Piece& piece, const std::string& label) {
-  return {label, piece.time_s.front(), piece.time_s.back()};
-}
-
-Panel force_panel(const Piece& piece, const std::string& label, double width_px) {
-  Panel panel;
+Panel force_panel(const Source& source, SampleRange range, const std::string& label, double width_px) {
+  std::vector<chart::Line> lines{{"measured", Colour::Grey, Stroke::Solid,
+                                  over_time(source, range, [&](std::size_t i) { return source.recording.force()[i]; }),
+                                  width_px}};
+  if (has_fitted_curve(source.analysis)) {
+    lines.push_back({"fit", Colour::Vermillion, Stroke::Solid,
+                     over_time(source, range, [&](std::size_t i) { return source.fitted[i]; }), width_px + 0.4});
+  }
+  Panel panel = time_panel(source, range, label, std::move(lines));
   panel.height_px = 220.0;
-  panel.lines = {
-      {"measured", Colour::Grey, Stroke::Solid, envelope(piece.time_s, piece.force, piece.columns), width_px},
-      {"fit", Colour::Vermillion, Stroke::Solid, envelope(piece.time_s, piece.fitted, piece.columns), width_px + 0.4}};
-  panel.x = time_axis(piece, "time [s]");
-  panel.y = axis_of(panel.lines.front().points, label);
+  return panel;
+}
+
+Panel residual_panel(const Source& source, SampleRange range) {
+  const auto residual = [&](std::size_t i) { return source.recording.force()[i] - source.fitted[i]; };
+  Panel panel = time_panel(source, range, label_with_unit("residual", source.force_unit.unit),
+                           {{"", Colour::Blue, Stroke::Solid, over_time(source, range, residual), 1.2}});
+  panel.height_px = 90.0;
   return panel;
 }
 
 /// A few cycles in the middle of those that the fit uses (or of all).
 SampleRange middle_cycles(const Source& source) {
+  constexpr std::size_t kCyclesClose = 5;
   std::vector<const Cycle*> cycles;
   for (const Cycle& cycle : source.analysis.cycle_table) {
     if (cycle.used || source.analysis.cycles.used == 0) cycles.push_back(&cycle);
@@ -87,8 +80,8 @@ void add_cycle_marks(Panel& panel, const Source& source) {
   chart::Markers begin{"slip begins", Colour::Blue, Shape::Ring, {}};
   chart::Markers end{"slip ends", Colour::Blue, Shape::Cross, {}};
   for (const Cycle& cycle : source.analysis.cycle_table) {
-    const double begin_s = cycle.onset_s.value_or(cycle.peak_s);
-    const double end_s = cycle.end_s.value_or(cycle.trough_s);
+    const double begin_s = slip_begin_s(cycle);
+    const double end_s = slip_end_s(cycle);
     if (begin_s < panel.x.low || end_s > panel.x.high) continue;
     begin.points.push_back({begin_s, scale * cycle.onset_force.value_or(cycle.peak_force)});
     end.points.push_back({end_s, scale * cycle.trough_force});
@@ -97,47 +90,34 @@ void add_cycle_marks(Panel& panel, const Source& source) {
   panel.markers.push_back(end);
 }
 
-Panel close_up(const Piece& piece, const Source& source, const std::string& label) {
-  Panel panel = force_panel(piece, label, 1.6);
+Panel close_up(const Source& source, SampleRange range, const std::string& label) {
+  constexpr std::size_t kFewSamples = 150;  // so few are drawn one by one
+  Panel panel = force_panel(source, range, label, 1.6);
   panel.lines.front().name = "measured, enlarged";
-  if (piece.time_s.size() <= kFewSamples) {
+  if (range.size() <= kFewSamples) {
     panel.markers.push_back({"", Colour::Grey, Shape::Speck, panel.lines.front().points});
   }
   add_cycle_marks(panel, source);
   return panel;
 }
 
-Panel residual_panel(const Piece& piece, const std::string& unit) {
-  Panel panel;
-  panel.height_px = 90.0;
-  panel.lines = {{"", Colour::Blue, Stroke::Solid, envelope(piece.time_s, piece.residual, piece.columns), 1.2}};
-  panel.x = time_axis(piece, "time [s]");
-  panel.y = axis_of(panel.lines.front().points, label_with_unit("residual", unit));
-  return panel;
-}
-
 }  // namespace
 
 std::vector<Panel> small_trace(const Source& source, const std::string& name) {
-  const Piece piece = cut(source, {0, source.recording.size()});
-  std::vector<Panel> panels{force_panel(piece, label_with_unit("force", source.force_unit.unit), 1.0)};
-  Panel& force = panels.front();
-  force.height_px = 80.0;
-  force.lines.front().name = name;
-  if (!has_fitted_curve(source.analysis)) {
-    force.lines.pop_back();
-    return panels;
-  }
-  force.x.label.clear();  // it is below the residual
-  panels.push_back(residual_panel(piece, source.force_unit.unit));
+  const SampleRange all{0, source.recording.size()};
+  std::vector<Panel> panels{force_panel(source, all, label_with_unit("force", source.force_unit.unit), 1.0)};
+  panels.front().height_px = 80.0;
+  panels.front().lines.front().name = name;
+  if (!has_fitted_curve(source.analysis)) return panels;
+  panels.front().x.label.clear();  // it is below the residual
+  panels.push_back(residual_panel(source, all));
   panels.back().height_px = 75.0;
   return panels;
 }
 
 Figure trace_figure(const Source& source) {
   const Recording& recording = source.recording;
-  const std::string unit = source.force_unit.unit;
-  const std::string label = label_with_unit(force_name_of(recording), unit);
+  const std::string label = label_with_unit(force_name_of(recording), source.force_unit.unit);
   const bool has_fit = has_fitted_curve(source.analysis);
 
   Figure figure{"trace", has_fit ? "The recording and the fit" : "The recording"};
@@ -145,16 +125,12 @@ Figure trace_figure(const Source& source) {
                           : "Measured force, fitted force, and residual (measured minus fitted). The residual should "
                             "be noise; a pattern that repeats in every slip shows that the model lacks something.";
   chart::Chart chart{"Recording and fit", {}, {}};
-  chart.panels.push_back(force_panel(cut(source, {0, recording.size()}), label, 1.0));
+  chart.panels.push_back(force_panel(source, {0, recording.size()}, label, 1.0));
   mark_sliding(chart.panels.back(), source);
   const SampleRange close = shows_cycles(source.analysis) ? middle_cycles(source) : SampleRange{};
   if (close.size() > 2) {
-    const Piece piece = cut(source, close);
-    chart.panels.push_back(close_up(piece, source, label));
-    if (has_fit) chart.panels.push_back(residual_panel(piece, unit));
-  }
-  for (chart::Panel& panel : chart.panels) {
-    if (!has_fit && panel.lines.size() > 1) panel.lines.pop_back();
+    chart.panels.push_back(close_up(source, close, label));
+    if (has_fit) chart.panels.push_back(residual_panel(source, close));
   }
   figure.label =
       fmt::format("{} over {}, {}{}", force_name_of(recording), quantity_text(recording.duration_s(), "s"),
@@ -167,98 +143,19 @@ Figure trace_figure(const Source& source) {
 
 namespace {
 
-using chart::Colour, chart::Panel, chart::Point, chart::Stroke;
-
-constexpr std::size_t kCycleColumns = 80;  // of one cycle
-Anchor anchor_of(const Cycle& cycle) {
-  const double force = cycle.level_force.value_or(cycle.trough_force);
-  return {cycle.onset_s.value_or(cycle.peak_s), force, cycle.onset_force.value_or(cycle.peak_force) - force};
-}
-
-}  // namespace
-
-Stack stack_of(const Analysis& analysis, std::size_t most_cycles) {
-  Stack stack;
-  std::vector<Anchor> all;
-  const bool is_fitted = analysis.cycles.used > 0;
-  for (const Cycle& cycle : analysis.cycle_table) {
-    if (!is_fitted || (cycle.used && cycle.level_force)) all.push_back(anchor_of(cycle));
-  }
-  if (all.empty()) return stack;
-  stack.on_kinetic_level = is_fitted;
-  const std::size_t count = std::min(most_cycles, all.size());
-  for (std::size_t i = 0; i < count; ++i) stack.anchors.push_back(all[i * all.size() / count]);
-  const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
-  std::nth_element(all.begin(), middle, all.end(),
-                   [](const Anchor& a, const Anchor& b) { return a.height < b.height; });
-  stack.typical = *middle;
-  return stack;
-}
-
-std::vector<Point> laid(const Source& source, std::span<const double> force, const Anchor& anchor, CycleWindow window) {
-  const SampleRange range =
-      samples_between(source.recording, anchor.time_s - window.before_s, anchor.time_s + window.after_s);
-  const double scale = source.force_unit.per_SI;
-  std::vector<Point> points = envelope(range.of(source.recording.time_s()), range.of(force), kCycleColumns);
-  for (Point& point : points) point = {point.x - anchor.time_s, scale * (point.y - anchor.force)};
-  return points;
-}
-
-std::vector<CycleWindow> windows_of(const CycleStatistics& cycles, double sample_interval_s) {
-  constexpr double kBefore = 0.3;      // periods before the slip
-  constexpr double kAfter = 0.8;       // periods after it
-  constexpr double kSlipBefore = 1.0;  // slip times, close up
-  constexpr double kSlipAfter = 2.5;
-  if (!cycles.period_s) return {};
-  std::vector<CycleWindow> windows{{kBefore * *cycles.period_s, kAfter * *cycles.period_s}};
-  const double slip_s = cycles.slip_time_s.value_or(0.0);
-  const bool is_resolved = slip_s > 2.0 * sample_interval_s;
-  if (is_resolved && kSlipAfter * slip_s < windows.front().after_s) {
-    windows.push_back({kSlipBefore * slip_s, kSlipAfter * slip_s});
-  }
-  return windows;
-}
-
-chart::Line laid_cycles(const Source& source, const Stack& stack, CycleWindow window) {
-  chart::Line line{"", Colour::Grey, Stroke::Solid, {}, 0.6};
-  for (const Anchor& anchor : stack.anchors) {
-    const std::vector<Point> points = laid(source, source.force_of_slips, anchor, window);
-    line.points.insert(line.points.end(), points.begin(), points.end());
-    line.points.push_back({0.0, std::numeric_limits<double>::quiet_NaN()});
-  }
-  return line;
-}
-
-Figure cycles_figure(const Source& source) {
-  Figure figure{"cycles", "Overlaid cycles"};
-  figure.guide = std::string(kOverlayGuide) +
-                 " A narrow bundle means similar cycles; the spread at the top is the scatter of static friction.";
-  if (!shows_cycles(source.analysis)) return figure.without_chart("Steady sliding has no cycles.");
-  const OverlaidSet measured{"measured cycles", {{source.recording, source.analysis}}};
-  if (!has_cycles(measured)) return figure.without_chart("There are too few slips to overlay cycles.");
-  figure.chart = overlay_of(figure.title, {measured}, &source);
-  figure.label = fmt::format("{} of {} cycles overlaid, with the fit of a typical one",
-                             stack_of(source.analysis, kMostCyclesOfASet).anchors.size(), source.analysis.cycles.count);
-  return figure;
-}
-
-namespace {
-
 /// A value in SI for each slip; not finite where it is not known. Evenly chosen where they are many.
 chart::Panel panel_over_slips(const std::string& name, const DisplayUnit& unit, const std::vector<double>& values) {
   constexpr std::size_t kMostSlips = 1000;
-  chart::Line line{"", chart::Colour::Blue, chart::Stroke::Solid, {}, 1.2};
-  Span span;
+  std::vector<Point> points;
   for (std::size_t i = 0; i < values.size(); i += values.size() / kMostSlips + 1) {
-    line.points.push_back({static_cast<double>(i + 1), unit.per_SI * values[i]});
-    span.add(line.points.back().y);
+    points.push_back({static_cast<double>(i + 1), unit.per_SI * values[i]});
   }
-  chart::Panel panel;
-  panel.height_px = 110.0;
-  panel.x = {"number of the slip", 0.5, static_cast<double>(values.size()) + 0.5};
-  panel.y = span.linear_axis(label_with_unit(name, unit.unit));
-  panel.lines.push_back(std::move(line));
-  return panel;
+  Span span;
+  span.add(points);
+  return {.x = {"number of the slip", 0.5, static_cast<double>(values.size()) + 0.5},
+          .y = span.linear_axis(label_with_unit(name, unit.unit)),
+          .height_px = 110.0,
+          .lines = {{"", Colour::Blue, Stroke::Solid, std::move(points), 1.2}}};
 }
 
 }  // namespace
@@ -275,7 +172,7 @@ Figure evolution_figure(const Source& source) {
   std::vector<double> peaks, drops, periods_s;
   double before_s = std::numeric_limits<double>::quiet_NaN();
   for (const Cycle& cycle : cycles) {
-    const double begin_s = cycle.onset_s.value_or(cycle.peak_s);
+    const double begin_s = slip_begin_s(cycle);
     peaks.push_back(cycle.peak_force);
     drops.push_back(cycle.peak_force - cycle.trough_force);
     periods_s.push_back(begin_s - before_s);
@@ -292,8 +189,6 @@ Figure evolution_figure(const Source& source) {
 }
 
 namespace {
-
-using chart::Colour, chart::Point, chart::Shape, chart::Stroke;
 
 constexpr int kSpectrumColumns = 600;       // on the logarithmic axis
 constexpr double kDepth = 3e-5;             // of the highest line: below is noise
@@ -334,34 +229,28 @@ std::vector<Point> highest_bins(const Spectrum& spectrum, double low_Hz, double 
 chart::Panel spectrum_panel(const Source& source, const std::vector<Point>& points) {
   const DisplayUnit unit = source.force_unit;
   const Spectrum& spectrum = source.background.spectrum;
-  chart::Panel panel;
-  panel.height_px = 280.0;
   Span heights;
-  for (const Point& point : points) heights.add(point.y);
-  panel.x = {"frequency [Hz]", points.front().x, points.back().x, chart::Scale::Logarithmic};
-  panel.y = {label_with_unit("rms per bin", unit.unit), std::max(heights.low(), kDepth * heights.high()) / 1.5,
-             heights.high() * 3.0, chart::Scale::Logarithmic};
-  panel.lines.push_back({"spectrum of the force", Colour::Grey, Stroke::Solid, points, 1.1});
-
+  heights.add(points);
+  Panel panel{.x = {"frequency [Hz]", points.front().x, points.back().x, chart::Scale::Logarithmic},
+              .y = {label_with_unit("rms per bin", unit.unit), std::max(heights.low(), kDepth * heights.high()) / 1.5,
+                    heights.high() * 3.0, chart::Scale::Logarithmic},
+              .height_px = 280.0,
+              .lines = {{"spectrum of the force", Colour::Grey, Stroke::Solid, points, 1.1}},
+              .markers = {{"harmonics found", Colour::Green, Shape::Ring, {}},
+                          {"suspicious lines", Colour::Vermillion, Shape::Triangle, {}}}};
+  const auto mark = [&](chart::Markers& markers, double at_Hz) {
+    markers.points.push_back({at_Hz, height_at(spectrum, at_Hz, unit.per_SI)});
+  };
   const FrequencyReport& frequency = source.analysis.frequency;
-  chart::Markers harmonics{"harmonics found", Colour::Green, Shape::Ring, {}};
-  for (std::size_t i = 0; i < std::min(frequency.spectral.harmonics_Hz.size(), kMostHarmonics); ++i) {
-    const double at_Hz = frequency.spectral.harmonics_Hz[i];
-    harmonics.points.push_back({at_Hz, height_at(spectrum, at_Hz, unit.per_SI)});
-  }
-  if (!harmonics.points.empty()) panel.markers.push_back(harmonics);
-  chart::Markers suspicious{"suspicious lines", Colour::Vermillion, Shape::Triangle, {}};
-  for (const SuspiciousLine& line : frequency.spectral.suspicious_lines) {
-    suspicious.points.push_back({line.frequency_Hz, height_at(spectrum, line.frequency_Hz, unit.per_SI)});
-  }
-  if (!suspicious.points.empty()) panel.markers.push_back(suspicious);
+  const std::vector<double>& harmonics_Hz = frequency.spectral.harmonics_Hz;
+  for (std::size_t i = 0; i < std::min(harmonics_Hz.size(), kMostHarmonics); ++i)
+    mark(panel.markers[0], harmonics_Hz[i]);
+  for (const SuspiciousLine& line : frequency.spectral.suspicious_lines) mark(panel.markers[1], line.frequency_Hz);
+  std::erase_if(panel.markers, [](const chart::Markers& markers) { return markers.points.empty(); });
   if (frequency.quoted.value) {
-    const double at_Hz = *frequency.quoted.value;
-    panel.lines.push_back({fmt::format("chosen frequency, {} Hz", with_error(frequency.quoted)),
-                           Colour::Blue,
-                           Stroke::Dashed,
-                           {{at_Hz, panel.y.low}, {at_Hz, panel.y.high}},
-                           1.6});
+    panel.lines.push_back(line_up(panel, fmt::format("chosen frequency, {} Hz", with_error(frequency.quoted)),
+                                  *frequency.quoted.value, Colour::Blue));
+    panel.lines.back().width_px = 1.6;
   }
   return panel;
 }
@@ -404,10 +293,7 @@ std::vector<Point> pairs_of(const Source& source) {
     pairs.push_back(
         {scale * (cycle.peak_force - *cycle.level_force), scale * (cycle.trough_force - *cycle.level_force)});
   }
-  if (pairs.size() <= kMostPairs) return pairs;
-  std::vector<Point> chosen;
-  for (std::size_t i = 0; i < kMostPairs; ++i) chosen.push_back(pairs[i * pairs.size() / kMostPairs]);
-  return chosen;
+  return evenly_chosen(pairs, kMostPairs);
 }
 
 chart::Panel pairs_panel(const Source& source, const std::vector<Point>& pairs) {
@@ -415,16 +301,13 @@ chart::Panel pairs_panel(const Source& source, const std::vector<Point>& pairs) 
   const Estimate& reflection = source.background.reflection;
   Span peaks;
   Span troughs;
-  for (const Point& pair : pairs) {
-    peaks.add(pair.x);
-    troughs.add(pair.y);
+  peaks.add(pairs, &Point::x);
+  troughs.add(pairs);
+  for (const double end : {-*reflection.value * peaks.low(), -*reflection.value * peaks.high(), -peaks.high()}) {
+    troughs.add(end);
   }
-  chart::Panel panel;
-  panel.x = peaks.linear_axis(label_with_unit("peak above kinetic friction", unit));
-  troughs.add(-*reflection.value * peaks.low());
-  troughs.add(-*reflection.value * peaks.high());
-  troughs.add(-peaks.high());
-  panel.y = troughs.linear_axis(label_with_unit("trough above kinetic friction", unit));
+  Panel panel{.x = peaks.linear_axis(label_with_unit("peak above kinetic friction", unit)),
+              .y = troughs.linear_axis(label_with_unit("trough above kinetic friction", unit))};
   const double left = panel.x.low;
   const double right = panel.x.high;
   const auto line_to = [left, right](double ratio) {
@@ -552,7 +435,6 @@ Figure residuals_figure(const Source& source) {
   chart::Line mean{"mean residual", Colour::Blue, Stroke::Solid, {}};
   chart::Area band{"two standard errors", Colour::Blue, chart::Fill::Plain, {}, kEdge_px};
   std::vector<Point> lower;
-  Span span;
   for (std::size_t i = 0; i < bins.size(); ++i) {
     if (bins[i].size() < kFewestInBin) continue;
     const MeanAndSpread residual = describe(bins[i]);
@@ -561,18 +443,17 @@ Figure residuals_figure(const Source& source) {
     mean.points.push_back({phase, residual.mean});
     band.outline.push_back({phase, residual.mean + error});
     lower.push_back({phase, residual.mean - error});
-    span.add(band.outline.back().y);
-    span.add(lower.back().y);
   }
   if (mean.points.size() < 3) return figure.without_chart("There are too few fitted cycles.");
   band.outline.insert(band.outline.end(), lower.rbegin(), lower.rend());
+  Span span;
+  span.add(band.outline);
   span.add(0.0);
-  Panel panel;
-  panel.height_px = 220.0;
-  panel.x = {"stick from -1 to 0, slip from 0 to 1", -1.0, 1.0};
-  panel.y = span.linear_axis(label_with_unit("residual", source.force_unit.unit));
-  panel.areas = {std::move(band)};
-  panel.lines = {{"", Colour::Grey, Stroke::Dashed, {{-1.0, 0.0}, {1.0, 0.0}}, 1.2}, std::move(mean)};
+  Panel panel{.x = {"stick from -1 to 0, slip from 0 to 1", -1.0, 1.0},
+              .y = span.linear_axis(label_with_unit("residual", source.force_unit.unit)),
+              .height_px = 220.0,
+              .areas = {std::move(band)},
+              .lines = {{"", Colour::Grey, Stroke::Dashed, {{-1.0, 0.0}, {1.0, 0.0}}, 1.2}, std::move(mean)}};
   figure.label = fmt::format("mean residual over stick and slip of {} fitted cycles", source.analysis.cycles.used);
   figure.chart = chart::Chart{"Residual over the cycle", {}, {std::move(panel)}};
   return figure;

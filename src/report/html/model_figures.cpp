@@ -31,22 +31,22 @@ Spot spot_of(const Analysis& analysis) {
 }
 
 chart::Panel regions(const std::vector<LimitPoint>& limit, double left, double right) {
-  chart::Panel panel;
-  panel.height_px = 340.0;
-  panel.x = {"stick-slip parameter λ = ωₙ (Fₛ − Fₖ) / (k V)  [-]", left, right, chart::Scale::Logarithmic};
-  panel.y = {"damping ratio ζ  [-]", kLowestZeta, kHighestZeta, chart::Scale::Logarithmic};
   chart::Line exact{"exact limit of stick-slip", Colour::Black, Stroke::Solid, {}};
   for (const LimitPoint& point : limit) exact.points.push_back({point.lambda, point.damping_ratio});
   std::vector<Point> stick_slip = exact.points;
   stick_slip.push_back({right, 1.0});
   stick_slip.push_back({right, kLowestZeta});
-  panel.areas = {{"", Colour::SkyBlue, chart::Fill::Plain, stick_slip, kEdge_px},
-                 rectangle("", Colour::Grey, {left, 1.0}, {right, kHighestZeta})};
-  panel.lines.push_back(exact);
-  panel.notes = {{{left * std::pow(right / left, 0.8), 0.004}, "stick-slip", Colour::Black, 0.0, -1.0},
-                 {{left * std::pow(right / left, 0.12), 0.3}, "no stick-slip", Colour::Black, 0.0, -1.0},
-                 {{left * std::pow(right / left, 0.5), 1.6}, "overdamped, ζ ≥ 1", Colour::Black, 0.0, -1.0}};
-  return panel;
+  const auto note = [left, right](double place, double zeta, const char* words) {
+    return chart::Note{{left * std::pow(right / left, place), zeta}, words, Colour::Black, 0.0, -1.0};
+  };
+  return {
+      .x = {"stick-slip parameter λ = ωₙ (Fₛ − Fₖ) / (k V)  [-]", left, right, chart::Scale::Logarithmic},
+      .y = {"damping ratio ζ  [-]", kLowestZeta, kHighestZeta, chart::Scale::Logarithmic},
+      .height_px = 340.0,
+      .areas = {{"", Colour::SkyBlue, chart::Fill::Plain, stick_slip, kEdge_px},
+                rectangle("", Colour::Grey, {left, 1.0}, {right, kHighestZeta})},
+      .lines = {exact},
+      .notes = {note(0.8, 0.004, "stick-slip"), note(0.12, 0.3, "no stick-slip"), note(0.5, 1.6, "overdamped, ζ ≥ 1")}};
 }
 
 /// Bars that reach over the 95 % intervals.
@@ -101,8 +101,7 @@ std::vector<double> ridge_distances_m(const Analysis& analysis, double spacing_m
   std::vector<double> intervals;
   const std::vector<Cycle>& cycles = analysis.cycle_table;
   for (std::size_t i = 1; i < cycles.size(); ++i) {
-    intervals.push_back(cycles[i].onset_s.value_or(cycles[i].peak_s) -
-                        cycles[i - 1].onset_s.value_or(cycles[i - 1].peak_s));
+    intervals.push_back(slip_begin_s(cycles[i]) - slip_begin_s(cycles[i - 1]));
   }
   const std::size_t count = std::min(kMostRidges, intervals.size());
   const std::size_t first = (intervals.size() - count) / 2;
@@ -138,11 +137,7 @@ void add_ridges(Panel& panel, const std::vector<double>& lengths) {
 }
 
 Panel strip(const std::string& name, const std::string& unit, double length) {
-  Panel panel;
-  panel.height_px = 70.0;
-  panel.x = {label_with_unit(name, unit), 0.0, length};
-  panel.y = {"", 0.0, 1.0};
-  return panel;
+  return {.x = {label_with_unit(name, unit), 0.0, length}, .y = {"", 0.0, 1.0}, .height_px = 70.0};
 }
 
 Panel fine_strip(double spacing, double length, const std::string& unit) {

@@ -2,7 +2,6 @@
 
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "report/blocks.hpp"
@@ -18,10 +17,8 @@ std::string text(std::string_view content);
 /// Returns escaped text with typeset symbols (F_s, F_k, w_n, zeta, lambda) and options that are not broken across
 /// lines.
 std::string formula_text(std::string_view content);
-
-/// A template with {{name}} replaced by the value of that name, unchanged; inserted text is not searched again.
-/// A name without a value stays.
-std::string filled(std::string_view page, const std::vector<std::pair<std::string, std::string>>& values);
+/// Returns formula_text with a capital at its beginning.
+std::string sentence_text(std::string_view content);
 
 /// JSON for an element <script>: < > & and the line separators U+2028 and U+2029 as \u escapes.
 std::string script_json(std::string_view json);
@@ -29,22 +26,38 @@ std::string script_json(std::string_view json);
 /// <section> with a heading of level 2; `attributes`: ` id="quality"`, content and title are HTML.
 std::string section(std::string_view attributes, std::string_view title, std::string_view content);
 
-/// A table in a box that scrolls where it is too wide. `headings`: of the columns, as text; one that begins with '#'
-/// is above numbers, with '~' over what stays on one line. Rows are HTML.
-std::string table(std::string_view attributes, const std::vector<std::string>& headings, std::string_view rows);
+/// A cell of a table: HTML.
+struct Cell {
+  Cell(std::string html, std::string more_attributes = {})
+      : content(std::move(html)), attributes(std::move(more_attributes)) {}
+  std::string content;
+  std::string attributes;  ///< each with a leading blank
+};
 
-/// Returns a table whose cells are HTML; the first cell names the row.
+/// A table in a box that scrolls where it is too wide; the first cell of a row names it. `headings`: of the columns, as
+/// text; one that begins with '#' is above numbers, with '~' over what stays on one line.
 std::string table(std::string_view attributes, const std::vector<std::string>& headings,
-                  const std::vector<std::vector<std::string>>& rows);
+                  const std::vector<std::vector<Cell>>& rows);
 
+/// A quantity rounded by its uncertainty, its interval, the value to sort by, and the status of a parameter.
+Cell quantity_cell(const Estimate& SI, double per_SI, const std::string& status = {});
+
+/// <span> with the status of a parameter and its mark.
+std::string status_mark(std::string_view status);
 /// <small> of text; empty where that is.
 std::string small(std::string_view content);
+/// <span class="note"> of text; empty where that is.
+std::string note(std::string_view content);
+/// <p class="absent"> of text: why something is not there.
+std::string absent(std::string_view content);
 
 /// <dl> of facts.
 std::string fact_list(std::string_view facts);
 
 /// <dt>term</dt><dd>text</dd>
 std::string fact(std::string_view term, std::string_view content);
+/// <dt>term</dt><dd><code>text</code></dd>
+std::string code_fact(std::string_view term, std::string_view content);
 
 /// <ul> of items that are HTML already; empty text where there are none.
 std::string list(const std::vector<std::string>& items);
@@ -52,38 +65,29 @@ std::string list(const std::vector<std::string>& items);
 /// The parts in which pages differ, in HTML except for the title, which is text. Empty parts are left out.
 struct PageParts {
   std::string title;
-  std::string place;  ///< path and labels, under the title
-  std::string kind;   ///< "recording", "sweep" or "batch": for the style sheet
+  std::string kind;     ///< "recording", "sweep" or "batch": for the style sheet
+  std::string place{};  ///< path and labels, under the title
   std::string headline;
-  std::string summary;  ///< under the headline
+  std::string summary{};  ///< under the headline
   std::string main;
-  std::string scripts;  ///< elements <script>
+  std::string scripts{};  ///< elements <script>
 };
 std::string page_from(const PageParts& parts);
-/// Returns the line under the title: the path of the file, and its entry in the manifest.
-std::string place_of(const Recording& recording);
 std::string script_element(std::string_view script);
 
-/// <td> with a quantity rounded by its uncertainty, its interval, the value to sort by, and the status of a parameter.
-std::string quantity_cell(const Estimate& SI, double per_SI, const std::string& status = {});
-/// A sentence with a capital at its beginning.
-std::string capitalised(std::string sentence);
-/// "command" with what was typed, for <dl>; empty where nothing was.
-std::string command_fact(const std::string& command_line);
+// Parts of several pages, as HTML.
 
-// Parts of the page of one recording, as HTML.
-std::string motion_sentence(const Source& source);
-std::string key_numbers(const Source& source);
 /// Warnings, and apart from them the facts among them.
 std::string warnings_part(const Warnings& warnings);
-std::string parameters_part(const Source& source);
 /// The table alone.
 std::string parameter_table(const FitResult& fit);
 /// The table of a block with its sentences.
 std::string block_content(const Block& block);
 /// <section> with the block; empty where that is.
 std::string block_part(const Block& block);
-std::string repeat_part(const Source& source, const ReportOrigin& origin);
+/// <section> with the program, the command as typed (empty: not by command line), further facts, and what follows them.
+std::string repeat_part(std::string_view attributes, const std::string& command_line, const std::string& facts,
+                        const std::string& more = {});
 /// The recording for trace.js, as JSON that a <script> may contain: force and residual in 65535 levels between their
 /// ends (a residual that the fit does not reach is level 65535), two bytes a sample in base64; times as a first and a
 /// last, and 32-bit parts of the time between where the clock is uneven; slips and gaps by begin and end, outliers by

@@ -7,12 +7,12 @@
 #include <vector>
 
 #include "core/statistics.hpp"
+#include "report/blocks.hpp"
 #include "report/html/figure.hpp"
 #include "report/html/page.hpp"
 #include "report/html/speed_figures.hpp"
 #include "report/names.hpp"
 #include "report/quantity_rows.hpp"
-#include "report/text_sections.hpp"
 #include "slipfit/report/sweep_html.hpp"
 
 namespace slipfit {
@@ -34,8 +34,7 @@ std::string sweep_sentence(const SweepSource& source) {
 
 std::string parameters_of(const SweepAnalysis& sweep) {
   return section(" id=\"parameters\"", "Parameters of all recordings",
-                 sweep.fit ? parameter_table(sweep.fit->result)
-                           : "<p class=\"absent\">" + formula_text(sweep.fit_reason) + "</p>\n") +
+                 sweep.fit ? parameter_table(sweep.fit->result) : absent(sweep.fit_reason)) +
          (sweep.fit ? block_part(correlations_block(sweep.fit->result)) : std::string());
 }
 
@@ -55,56 +54,41 @@ SweepUnits units_of(const SweepSource& source) {
   return {speed_unit_of(source), display_unit("m", widest_m)};
 }
 
-/// Returns true if the manifest states the spacing on the worn surface for any recording.
-bool has_surface_spacing(const SweepSource& source) {
-  return std::ranges::any_of(source.entries, [](const SweepEntry& entry) {
-    return spacing_on_surface(entry.recording.conditions()).value.has_value();
-  });
-}
-
-/// Returns the changes of k and F_s - F_k if the recording is left out.
-std::string influence_cells(const SweepSource& source, const SweepPoint& point) {
-  const std::optional<ModelEstimate> whole = source.sweep.fit ? source.sweep.fit->result.estimate : std::nullopt;
-  if (!whole) return {};
-  const auto cell = [](const std::optional<double>& without, double with) {
-    const std::string change = without ? fmt::format("{:+.2g} %", 100.0 * (*without / with - 1.0)) : "-";
-    return "<td class=\"number\">" + change + "</td>";
-  };
-  return cell(point.stiffness_left_out_N_per_m, whole->stiffness_N_per_m) +
-         cell(point.friction_difference_left_out_N, whole->friction_difference_N);
-}
-
-std::string recording_row(const SweepSource& source, std::size_t i, const SweepUnits& units) {
-  const Analysis& analysis = source.sweep.recordings[i];
-  const Conditions& conditions = source.entries[i].recording.conditions();
-  const Estimate on_surface = spacing_on_surface(conditions);
-  const double speed = units.speed.per_SI * conditions.speed_m_per_s;
-  const Estimate& measured = analysis.derived.pattern_spacing_m;
-  const SweepPoint without = source.sweep.fit ? source.sweep.fit->points[i] : SweepPoint{};
-  const Estimate& predicted = without.spacing_left_out_m;
-  const bool is_left_out = source.sweep.roles[i] == SweepRole::LeftOut;
-  return fmt::format(
-      "<tr><th scope=\"row\">{}</th><td class=\"number\">{:.4g}</td><td>{}{}</td>{}{}{}<td "
-      "class=\"number\">{}</td>{}</tr>\n",
-      text(source.entries[i].id), speed, plain_words(name_of(analysis.motion)), is_left_out ? ", left out" : "",
-      has_surface_spacing(source) ? quantity_cell(on_surface, units.spacing.per_SI) : "",
-      quantity_cell(measured, units.spacing.per_SI), quantity_cell(predicted, units.spacing.per_SI),
-      text(off_by(predicted, measured)), influence_cells(source, without));
-}
-
+/// Every recording with the prediction from the others, and what k and F_s - F_k are without it.
 std::string recordings_of(const SweepSource& source) {
   const SweepUnits units = units_of(source);
-  std::vector<std::string> columns{"recording", label_with_unit("#speed", units.speed.unit), "shows"};
-  if (has_surface_spacing(source)) columns.push_back(label_with_unit("#spacing on the surface", units.spacing.unit));
-  columns.insert(columns.end(), {label_with_unit("#" + std::string(kMeasured.front().words), units.spacing.unit),
-                                 label_with_unit("#predicted from the others", units.spacing.unit), "#off by"});
-  if (source.sweep.fit && source.sweep.fit->result.estimate) {
-    columns.insert(columns.end(), {"#k without it", "#F_s \u2212 F_k without it"});
+  const bool has_surface = std::ranges::any_of(source.entries, [](const SweepEntry& entry) {
+    return spacing_on_surface(entry.recording.conditions()).value.has_value();
+  });
+  const std::optional<ModelEstimate> whole = source.sweep.fit ? source.sweep.fit->result.estimate : std::nullopt;
+  std::vector<std::string> headings{"recording", label_with_unit("#speed", units.speed.unit), "shows"};
+  if (has_surface) headings.push_back(label_with_unit("#spacing on the surface", units.spacing.unit));
+  headings.insert(headings.end(), {label_with_unit("#" + std::string(kMeasured.front().words), units.spacing.unit),
+                                   label_with_unit("#predicted from the others", units.spacing.unit), "#off by"});
+  if (whole) headings.insert(headings.end(), {"#k without it", "#F_s \u2212 F_k without it"});
+  std::vector<std::vector<Cell>> rows;
+  for (std::size_t i = 0; i < source.entries.size(); ++i) {
+    const Analysis& analysis = source.sweep.recordings[i];
+    const Conditions& conditions = source.entries[i].recording.conditions();
+    const Estimate& measured = analysis.derived.pattern_spacing_m;
+    const SweepPoint without = source.sweep.fit ? source.sweep.fit->points[i] : SweepPoint{};
+    const bool is_left_out = source.sweep.roles[i] == SweepRole::LeftOut;
+    std::vector<Cell>& row = rows.emplace_back();
+    row = {text(source.entries[i].id), fmt::format("{:.4g}", units.speed.per_SI * conditions.speed_m_per_s),
+           plain_words(name_of(analysis.motion)) + (is_left_out ? ", left out" : "")};
+    if (has_surface) row.push_back(quantity_cell(spacing_on_surface(conditions), units.spacing.per_SI));
+    row.push_back(quantity_cell(measured, units.spacing.per_SI));
+    row.push_back(quantity_cell(without.spacing_left_out_m, units.spacing.per_SI));
+    row.emplace_back(text(off_by(without.spacing_left_out_m, measured)));
+    const auto add_change = [&row](const std::optional<double>& left_out, double with) {
+      row.emplace_back(left_out ? fmt::format("{:+.2g} %", 100.0 * (*left_out / with - 1.0)) : "-");
+    };
+    if (!whole) continue;
+    add_change(without.stiffness_left_out_N_per_m, whole->stiffness_N_per_m);
+    add_change(without.friction_difference_left_out_N, whole->friction_difference_N);
   }
-  std::string rows;
-  for (std::size_t i = 0; i < source.entries.size(); ++i) rows += recording_row(source, i, units);
   return section(" class=\"flows\"", "Each recording, predicted from the others",
-                 table(" class=\"plain-table\"", columns, rows));
+                 table(" class=\"plain-table\"", headings, rows));
 }
 
 std::string traces_of(const SweepSource& source) {
@@ -114,7 +98,7 @@ std::string traces_of(const SweepSource& source) {
 }
 
 std::string repeat_of(const SweepSource& source, const SweepOrigin& origin) {
-  std::string facts = fact("program", fmt::format("slipfit {}", SLIPFIT_VERSION)) + command_fact(origin.command_line);
+  std::string facts;
   for (std::size_t i = 0; i < source.entries.size(); ++i) {
     const Provenance& provenance = source.entries[i].recording.provenance();
     const bool is_of_same_file = i > 0 && source.entries[i - 1].recording.provenance().file == provenance.file;
@@ -123,8 +107,7 @@ std::string repeat_of(const SweepSource& source, const SweepOrigin& origin) {
                          text(provenance.file), provenance.input_digest ? provenance.input_digest->text() : "");
   }
   constexpr std::size_t kMostTogether = 12;  // on a printed page
-  const bool is_short = source.entries.size() <= kMostTogether;
-  return section(is_short ? " id=\"repeat\"" : " id=\"repeat\" class=\"flows\"", "To repeat this", fact_list(facts));
+  return repeat_part(source.entries.size() <= kMostTogether ? "" : " class=\"flows\"", origin.command_line, facts);
 }
 
 }  // namespace

@@ -11,7 +11,7 @@
 #include "core/thresholds.hpp"
 #include "report/html/figure.hpp"
 #include "report/html/page.hpp"
-#include "report/json_sections.hpp"
+#include "report/json_values.hpp"
 
 namespace slipfit::html {
 namespace {
@@ -92,8 +92,8 @@ std::string series_members(const std::string& name, const std::vector<double>& v
          packed_member(name + "_levels", packed(levels));
 }
 
-/// Times as parts of the recording's duration, packed.
-std::string packed_ticks(const Recording& recording, const std::vector<double>& times_s) {
+/// Times as parts of the recording's duration.
+std::string ticks_member(const std::string& name, const Recording& recording, const std::vector<double>& times_s) {
   const double per_second = kTicks / recording.duration_s();
   std::vector<std::uint32_t> ticks;
   ticks.reserve(times_s.size());
@@ -101,7 +101,7 @@ std::string packed_ticks(const Recording& recording, const std::vector<double>& 
     ticks.push_back(
         static_cast<std::uint32_t>(std::clamp(per_second * (time_s - recording.time_s().front()), 0.0, kTicks)));
   }
-  return packed(ticks);
+  return packed_member(name, packed(ticks));
 }
 
 bool is_even(std::span<const double> time_s) {
@@ -116,8 +116,8 @@ std::vector<double> slip_times_s(const Analysis& analysis) {
   std::vector<double> times_s;
   if (!shows_cycles(analysis)) return times_s;
   for (const Cycle& cycle : analysis.cycle_table) {
-    times_s.push_back(cycle.onset_s.value_or(cycle.peak_s));
-    times_s.push_back(cycle.end_s.value_or(cycle.trough_s));
+    times_s.push_back(slip_begin_s(cycle));
+    times_s.push_back(slip_end_s(cycle));
   }
   return times_s;
 }
@@ -148,10 +148,12 @@ std::string trace_data(const Source& source) {
   const Recording& recording = source.recording;
   const DisplayUnit& unit = source.force_unit;
   const std::vector<std::size_t> chosen = chosen_samples(recording.force());
-  std::vector<double> force;
-  force.reserve(chosen.size());
-  for (const std::size_t i : chosen) force.push_back(unit.per_SI * recording.force()[i]);
-
+  const auto of_chosen = [&chosen](const auto& at) {
+    std::vector<double> values;
+    values.reserve(chosen.size());
+    for (const std::size_t i : chosen) values.push_back(at(i));
+    return values;
+  };
   const Json names{{"label", label_with_unit(force_name_of(recording), unit.unit)},
                    {"residual_label", label_with_unit("residual", unit.unit)},
                    {"unit", unit.unit},
@@ -159,21 +161,16 @@ std::string trace_data(const Source& source) {
                    {"last_s", recording.time_s().back()}};
   std::string json = script_json(text_of(names, JsonLayout::OneLine));
   json.pop_back();
-  json += series_members("force", force) +
-          packed_member("slips", packed_ticks(recording, slip_times_s(source.analysis))) +
-          packed_member("gaps", packed_ticks(recording, gap_times_s(recording))) +
-          packed_member("outliers", packed_ticks(recording, outlier_times_s(source)));
+  json += series_members("force", of_chosen([&](std::size_t i) { return unit.per_SI * recording.force()[i]; })) +
+          ticks_member("slips", recording, slip_times_s(source.analysis)) +
+          ticks_member("gaps", recording, gap_times_s(recording)) +
+          ticks_member("outliers", recording, outlier_times_s(source));
   if (!is_even(recording.time_s())) {
-    std::vector<double> times_s;
-    times_s.reserve(chosen.size());
-    for (const std::size_t i : chosen) times_s.push_back(recording.time_s()[i]);
-    json += packed_member("ticks", packed_ticks(recording, times_s));
+    json += ticks_member("ticks", recording, of_chosen([&](std::size_t i) { return recording.time_s()[i]; }));
   }
   if (has_fitted_curve(source.analysis)) {
-    std::vector<double> residual;
-    residual.reserve(chosen.size());
-    for (const std::size_t i : chosen) residual.push_back(unit.per_SI * (recording.force()[i] - source.fitted[i]));
-    json += series_members("residual", residual);
+    json += series_members(
+        "residual", of_chosen([&](std::size_t i) { return unit.per_SI * (recording.force()[i] - source.fitted[i]); }));
   }
   return json + "}";
 }
