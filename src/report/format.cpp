@@ -107,7 +107,7 @@ std::string with_error(const Estimate& estimate) {
 
 DisplayUnit display_unit(const std::string& SI_unit, std::optional<double> typical) {
   if (SI_unit == "1/m") return {1e-3, "1/mm"};
-  constexpr std::array<const char*, 5> kPrefixable{"m", "m/s", "s", "N", "kg"};
+  constexpr std::array<const char*, 6> kPrefixable{"m", "m/s", "s", "N", "kg", "J"};
   const bool prefixable = std::ranges::find(kPrefixable, SI_unit) != kPrefixable.end();
   if (!prefixable || !typical || !std::isfinite(*typical) || *typical == 0.0) return {1.0, SI_unit};
   const double magnitude = std::abs(*typical);

@@ -172,6 +172,19 @@ TEST_CASE("the packed trace gives every sample back to half a level") {
   CHECK(data["last_s"] == recording.time_s().back());
 }
 
+TEST_CASE("the work between slips is the speed times the integral of the force") {
+  const slipfit::Recording recording = sawtooth();
+  const slipfit::Analysis analysis = slipfit::analyze(recording);
+  const slipfit::Background background = gather_background(recording, analysis);
+  const auto figure = slipfit::html::evolution_figure(slipfit::html::source_of(recording, analysis, background));
+  const slipfit::chart::Panel& work = figure.chart->panels.back();
+  CHECK(work.y.label == "work [mJ]");
+  const std::vector<slipfit::chart::Point>& points = work.lines.front().points;
+  REQUIRE(points.size() == analysis.cycle_table.size());
+  // 10 mm/s, 0.1 s, and a mean of 1.45 N, whatever the phase of the onset.
+  for (std::size_t i = 1; i < points.size(); ++i) CHECK(points[i].y == Approx(1.45).epsilon(1e-6));
+}
+
 TEST_CASE("an uneven clock travels with the trace") {
   const std::vector<double> time_s{0.0, 0.1, 0.15, 0.4, 0.5};
   const slipfit::Recording recording =

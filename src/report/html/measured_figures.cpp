@@ -158,13 +158,36 @@ chart::Panel panel_over_slips(const std::string& name, const DisplayUnit& unit, 
           .lines = {{"", Colour::Blue, Stroke::Solid, std::move(points), 1.2}}};
 }
 
+/// Returns the work of the drive from each slip to the next, in J: the speed times the integral of the force over time
+/// (trapezoids). Over a whole cycle the spring stores nothing, so that friction and damping dissipate it. Not a number
+/// for the first slip. An unknown zero of the sensor shifts all values alike where the periods are equal.
+std::vector<double> work_between_slips(const Recording& recording, const std::vector<Cycle>& cycles) {
+  const auto time_s = recording.time_s();
+  const auto force_N = recording.force();
+  const auto sample_at = [&](double seconds) {
+    return static_cast<std::size_t>(std::ranges::lower_bound(time_s, seconds) - time_s.begin());
+  };
+  std::vector<double> work_J{std::numeric_limits<double>::quiet_NaN()};
+  std::size_t begin = sample_at(slip_begin_s(cycles.front()));
+  for (std::size_t i = 1; i < cycles.size(); ++i) {
+    const std::size_t end = std::min(sample_at(slip_begin_s(cycles[i])), time_s.size() - 1);
+    double impulse_Ns = 0.0;
+    for (; begin < end; ++begin) {
+      impulse_Ns += 0.5 * (force_N[begin] + force_N[begin + 1]) * (time_s[begin + 1] - time_s[begin]);
+    }
+    work_J.push_back(recording.conditions().speed_m_per_s * impulse_Ns);
+  }
+  return work_J;
+}
+
 }  // namespace
 
 Figure evolution_figure(const Source& source) {
   Figure figure{
       "evolution", "Evolution over the slips",
-      "Peak force, force drop and period of each slip in order. A trend indicates wear, heating or drift of the "
-      "sensor; a step indicates a change of the contact; a long period may be a slip that was not detected."};
+      "Peak force, force drop and period of each slip in order, and the work of the drive since the slip before it, "
+      "which friction dissipates. A trend indicates wear, heating or drift of the sensor; a step indicates a change of "
+      "the contact; a long period may be a slip that was not detected."};
   constexpr std::size_t kFewestSlips = 5;
   const std::vector<Cycle>& cycles = source.analysis.cycle_table;
   if (!shows_cycles(source.analysis) || cycles.size() < kFewestSlips)
@@ -185,6 +208,12 @@ Figure evolution_figure(const Source& source) {
                     panel_over_slips("force drop", source.force_unit, drops),
                     panel_over_slips("period", display_unit("s", source.analysis.cycles.period_s), periods_s)}};
   figure.label = fmt::format("peak force, force drop and period of {} slips", cycles.size());
+  const Conditions& conditions = source.recording.conditions();
+  if (conditions.speed_is_known && conditions.quantity == ForceQuantity::Force_N) {
+    const std::vector<double> work_J = work_between_slips(source.recording, cycles);
+    figure.chart->panels.push_back(panel_over_slips("work", display_unit("J", work_J.back()), work_J));
+    figure.label += ", and the work between them";
+  }
   return figure;
 }
 
