@@ -123,7 +123,7 @@ FileInfo inspect(const Container& container, const std::string& name, const Read
 std::vector<TableInfo> inspect_each(const std::filesystem::path& path, const std::string& name,
                                     const ReadOptions& options) {
   check_options(options, name);
-  const Container file = open_container(open_plain(path), name);
+  const Container file = open_container(open_plain(path), name, options);
   std::vector<std::string> names;
   if (!options.sheet && !options.variable) names = file.tables();
   std::vector<TableInfo> tables;
@@ -150,7 +150,7 @@ Result<FileInfo> inspect_recording(const std::filesystem::path& path, const Read
   const std::string name = name_of_file(path);
   return with_errors_of_reading(name, [&] {
     check_options(options, name);
-    const Container file = open_container(open_plain(path), name);
+    const Container file = open_container(open_plain(path), name, options);
     FileInfo info = inspect(file, name, options);
     (file.choice == &ReadOptions::sheet ? info.sheets : info.variables) = file.tables();
     return info;

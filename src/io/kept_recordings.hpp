@@ -18,7 +18,7 @@ namespace slipfit::reading {
 class KeptFile {
  public:
   /// Opens a file; messages show `name`. Errors: those of open_plain and open_container.
-  Container open(const std::filesystem::path& file, const std::string& name);
+  Container open(const std::filesystem::path& file, const std::string& name, const ReadOptions& options);
 
  private:
   std::filesystem::path path_;

@@ -55,7 +55,7 @@ std::vector<NamedRecording> pieces_in(const Container& container, const std::str
 
 namespace reading {
 
-Container KeptFile::open(const std::filesystem::path& file, const std::string& name) {
+Container KeptFile::open(const std::filesystem::path& file, const std::string& name, const ReadOptions& options) {
   constexpr std::uintmax_t kMostKept = std::uintmax_t{1} << 30U;  // larger files are read for each table
   std::error_code no_size;
   std::error_code no_time;
@@ -64,7 +64,7 @@ Container KeptFile::open(const std::filesystem::path& file, const std::string& n
   const bool can_be_kept = !no_size && !no_time && size <= kMostKept;
   if (can_be_kept && file_ && path_ == file && size_ == size && changed_ == changed) return *file_;
   file_.reset();
-  Container opened = open_container(open_plain(file), name);
+  Container opened = open_container(open_plain(file), name, options);
   if (!can_be_kept || opened.choice == nullptr) return opened;
   path_ = file;
   size_ = size;
@@ -77,7 +77,7 @@ Result<std::vector<NamedRecording>> read_pieces(KeptFile& kept, const std::files
   const std::string name = name_of_file(file);
   return with_errors_of_reading(name, [&] {
     check_options(options, name);
-    return pieces_in(kept.open(file, name), name, conditions, options);
+    return pieces_in(kept.open(file, name, options), name, conditions, options);
   });
 }
 

@@ -226,7 +226,7 @@ Profile made(Columns columns, const Choice& choice, const Layout& layout, const 
 
 Profile read_text_profile(const SurfaceFile& file, const ProfileOptions& options) {
   reading::OpenedFile opened =
-      reading::open_file(reading::open_container(std::move(*file.stream), file.name), file.name, {});
+      reading::open_file(reading::open_container(std::move(*file.stream), file.name, {}), file.name, {});
   const Layout layout = opened.layout;
   const Choice choice = choose(layout, options, file.name);
   if (!choice.x && !options.pitch_m) {

@@ -58,7 +58,7 @@ const std::vector<Form> kForms{
     // Short tests and what they are called are made so too.
     {R"form(return (?:\{\s*)+"([a-z0-9]+_[a-z0-9_]+)",)form", "parameter_out_of_range", "# Formats"},
     {R"form(refusal\(\s*"(\w+)")form", "bad_rows", "## Errors"},
-    {R"form(Warning\{\s*"(\w+)")form", "speed_differs_from_displacement", "## Warnings"},
+    {R"form(Warning\{\s*"(\w+)")form", "samples_averaged", "## Warnings"},
     {R"form(warnings\.push_back\(\s*\{\s*"(\w+)")form", "hum_fitted", "## Warnings"},
     {R"form(\{"(\w+)", RuleKind::)form", "uneven_clock", "## Warnings"},
 };

@@ -43,20 +43,20 @@ TEST_CASE("a kept file is read once, and anew when it has changed") {
   const std::string content = tdms("run", {1.0, 2.5});
   const io_test::TempFile file(content);
   KeptFile kept;
-  const Container first = kept.open(file.path(), "file");
-  const Container second = kept.open(file.path(), "file");
+  const Container first = kept.open(file.path(), "file", {});
+  const Container second = kept.open(file.path(), "file", {});
   CHECK(first.digester == second.digester);
   CHECK(first.tables() == std::vector<std::string>{"run"});
   CHECK(text_in(first) == "force\n1\n2.5\n");
   CHECK(text_in(second) == text_in(first));
   CHECK(second.digester->digest() == slipfit::digest_of(content));
   std::ofstream(file.path(), std::ios::binary) << tdms("other", {3.0});
-  const Container third = kept.open(file.path(), "file");
+  const Container third = kept.open(file.path(), "file", {});
   CHECK(text_in(third) == "force\n3\n");
   CHECK(text_in(first) == "force\n1\n2.5\n");  // its own bytes
 }
 
 TEST_CASE("a kept file that is missing has the error of any other") {
   KeptFile kept;
-  CHECK_THROWS_AS(kept.open("/none/there.h5", "file"), slipfit::ThrownError);
+  CHECK_THROWS_AS(kept.open("/none/there.h5", "file", {}), slipfit::ThrownError);
 }

@@ -62,8 +62,8 @@ struct Container {
 };
 
 /// Opens a file of which open_plain has read the beginning, as the container that its first bytes announce; messages
-/// show `name`. The bytes of a file of several tables are read once. Errors: those of containers.
-Container open_container(TextStream file, const std::string& name);
+/// show `name`. The bytes of a file of several tables are read once. Errors: those of containers and table_in.
+Container open_container(TextStream file, const std::string& name, const ReadOptions& options);
 
 /// Returns the text of the table that the options select. Errors: those of containers; no_container if they select a
 /// table of another kind of file.

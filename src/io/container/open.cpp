@@ -84,13 +84,14 @@ constexpr std::array<TableOption, 2> kTableOptions{
     {{&ReadOptions::sheet, "--sheet", "sheets"}, {&ReadOptions::variable, "--variable", "variables"}}};
 
 /// An option that has no meaning in this kind of file is no option to leave unread.
-void check_choice(const Container& container, const ReadOptions& options, const std::string& name) {
+void check_choice(std::optional<std::string> ReadOptions::*choice, std::string_view kind, const ReadOptions& options,
+                  const std::string& name) {
   for (const TableOption& given : kTableOptions) {
-    if (!(options.*given.choice) || container.choice == given.choice) continue;
-    const auto* const other = std::ranges::find(kTableOptions, container.choice, &TableOption::choice);
+    if (!(options.*given.choice) || choice == given.choice) continue;
+    const auto* const other = std::ranges::find(kTableOptions, choice, &TableOption::choice);
     const std::string advice =
         other == kTableOptions.end() ? std::string() : fmt::format(" (or choose with {})", other->name);
-    throw ThrownError({"no_container", fmt::format("{}: is {}, which has no {}; leave out {}{}", name, container.kind,
+    throw ThrownError({"no_container", fmt::format("{}: is {}, which has no {}; leave out {}{}", name, kind,
                                                    given.tables, given.name, advice)});
   }
 }
@@ -150,11 +151,12 @@ Container one_table(TextStream text) {
   return {[kept = std::make_shared<TextStream>(std::move(text))](const auto&) { return std::move(*kept); }};
 }
 
-Container open_container(TextStream file, const std::string& name) {
+Container open_container(TextStream file, const std::string& name, const ReadOptions& options) {
   const std::string_view start = file.start;
   const Format& format = *std::ranges::find_if(kFormats, [start](const Format& one) {
     return start.size() >= one.offset && start.substr(one.offset).starts_with(one.magic);
   });
+  check_choice(format.choice, format.kind, options, name);
   auto digester = file.digester;
   Container container = format.open(std::move(file), name);
   container.choice = format.choice;
@@ -164,7 +166,7 @@ Container open_container(TextStream file, const std::string& name) {
 }
 
 TextStream table_in(const Container& container, const std::string& name, const ReadOptions& options) {
-  check_choice(container, options, name);
+  check_choice(container.choice, container.kind, options, name);
   TextStream text = container.open(container.choice == nullptr ? std::nullopt : options.*container.choice);
   text.digester = container.digester;
   return text;
