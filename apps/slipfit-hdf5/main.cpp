@@ -1,7 +1,8 @@
 // slipfit-hdf5 mat|hdf5 FILE [VARIABLE]: numbers of a .mat or HDF5 file as CSV on standard output, for slipfit. A
 // program of its own: these libraries take some fifty others with them, and a damaged file that ends them ends nothing
-// else. The first line is "=NAME" of what was read, or "!CODE MESSAGE" of what is wrong. slipfit-hdf5
-// mat-tables|hdf5-tables FILE: the names of all tables, parted by tabs, in such a line.
+// else. The first line is "=NAME" of what was read, or "!CODE MESSAGE" of what is wrong. slipfit-hdf5 mat-all|hdf5-all
+// FILE: the names of all tables, parted by tabs, in such a line, then each table behind a line "=BYTES" or "!CODE
+// MESSAGE".
 
 #include <cstdio>
 #include <exception>
@@ -29,32 +30,46 @@ int refuse(const std::string& line) {
   return 1;
 }
 
-bool write_table(ReadTable read) {
-  bool written = write("=" + read.name + "\n");
-  const auto text = text_of(std::move(read.table));
+/// Calls `put` with one part of the table's text after the other until it returns false, and returns what it did.
+template <class Put>
+bool put_text(NumberTable table, const Put& put) {
+  const auto text = text_of(std::move(table));
   std::vector<char> part(std::size_t{64} * 1024);
-  while (written) {
-    const std::size_t count = text->read(part.data(), part.size());
-    if (count == 0) break;
-    written = write({part.data(), count});
+  while (const std::size_t count = text->read(part.data(), part.size())) {
+    if (!put(std::string_view(part.data(), count))) return false;
   }
+  return true;
+}
+
+bool write_table(ReadTable read) {
+  return write("=" + read.name + "\n") && put_text(std::move(read.table), write);
+}
+
+bool write_measured_table(const ArrayFile& file, const std::string& name) {
+  try {
+    std::string all;
+    put_text(file.read(name).table, [&](std::string_view part) { return !all.append(part).empty(); });
+    return write("=" + std::to_string(all.size()) + "\n") && write(all);
+  } catch (const Refusal& refusal) {
+    return write("!" + refusal.error().code + " " + refusal.error().message + "\n");
+  }
+}
+
+/// Tables whose names contain tabs or line ends are left out: no choice of a user could be that.
+bool write_all_tables(const ArrayFile& file) {
+  std::vector<std::string> names = file.tables();
+  std::erase_if(names, [](const std::string& name) { return name.find_first_of("\t\n") != std::string::npos; });
+  std::string line;
+  for (const std::string& name : names) line += (line.empty() ? "=" : "\t") + name;
+  bool written = write(line.empty() ? "=\n" : line + "\n") && std::fflush(stdout) == 0;
+  for (const std::string& name : names) written = written && write_measured_table(file, name);
   return written;
 }
 
-/// Names with tabs or line ends are left out: no choice of a user could be that.
-bool write_names(const std::vector<std::string>& names) {
-  std::string line = "=";
-  for (const std::string& name : names) {
-    if (name.find_first_of("\t\n") == std::string::npos) line += (line.size() == 1 ? "" : "\t") + name;
-  }
-  return write(line + "\n");
-}
-
 int run(std::string_view kind, const char* name, const std::optional<std::string>& variable) {
-  const std::string_view file = map_only_file(name);
-  const ArrayFormat& format = kind.starts_with("mat") ? kMat : kHdf5;
-  const bool written =
-      kind.ends_with("-tables") ? write_names(format.tables(file)) : write_table(format.read(file, variable));
+  const std::string_view bytes = map_only_file(name);
+  const ArrayFile file = kind.starts_with("mat") ? open_mat_arrays(bytes) : open_hdf5_arrays(bytes);
+  const bool written = kind.ends_with("-all") ? write_all_tables(file) : write_table(file.read(variable));
   return written && std::fflush(stdout) == 0 ? 0 : 1;
 }
 

@@ -78,7 +78,8 @@ def too_little_memory(arguments, folder):
     if run([arguments.slipfit, "--version"], memory=1 << 30).returncode != 0:
         return "skipped: this program reserves addresses without limit (sanitizers)"
     least = 16 * MEGABYTE
-    while run([arguments.slipfit, "--version"], memory=least).returncode != 0:
+    # Where the system places the stack is random: at the least size one start in five may fail.
+    while any(run([arguments.slipfit, "--version"], memory=least).returncode != 0 for _ in range(20)):
         least += 4 * MEGABYTE
     said = set()
     for step in range(60 if arguments.long else 12):

@@ -2,6 +2,8 @@
 
 #include <array>
 #include <limits>
+#include <memory>
+#include <optional>
 #include <utility>
 
 #include "io/arrays/tables.hpp"
@@ -189,7 +191,7 @@ bool is_wanted(const std::string& path, const std::string& variable) {
   return is_called(path, variable) || is_called(path.substr(0, path.rfind('/')), variable);
 }
 
-/// With a variable, only what it names is opened: a file may hold hundreds of groups.
+/// Of what a variable names, where it is given.
 Contents contents_of(hid_t file, const std::optional<std::string>& variable) {
   Contents contents;
   Paths datasets;
@@ -219,23 +221,33 @@ NumberTable table_of(hid_t file, const TableShape& shape) {
   return table;
 }
 
-ReadTable read_hdf5(std::string_view file, const std::optional<std::string>& variable) {
-  const Handle opened(open_in_memory(file), H5Fclose);
-  const Contents contents = contents_of(opened, variable);
-  refuse_other_files(contents, variable);
-  const bool is_found = !variable || !contents.arrays.empty();
-  const std::vector<ArrayShape> arrays = is_found ? contents.arrays : contents_of(opened, std::nullopt).arrays;
-  const TableShape shape = choose_table(arrays, variable, file.size());
-  return {table_of(opened, shape), shape.name};
-}
+/// An open file, and what it contains once all of that was asked for.
+struct Opened {
+  explicit Opened(std::string_view file) : handle(open_in_memory(file), H5Fclose) {}
 
-std::vector<std::string> tables_in_hdf5(std::string_view file) {
-  const Handle opened(open_in_memory(file), H5Fclose);
-  return recordable_tables(contents_of(opened, std::nullopt).arrays, file.size());
-}
+  const Contents& all() {
+    if (!contents) contents = contents_of(handle, std::nullopt);
+    return *contents;
+  }
+
+  Handle handle;
+  std::optional<Contents> contents;
+};
 
 }  // namespace
 
-const ArrayFormat kHdf5{read_hdf5, tables_in_hdf5};
+ArrayFile open_hdf5_arrays(std::string_view file) {
+  const auto opened = std::make_shared<Opened>(file);
+  const auto read = [=](const std::optional<std::string>& variable) -> ReadTable {
+    // With a variable only what it names is opened: a file may hold hundreds of groups.
+    const bool is_part = variable && !opened->contents;
+    Contents contents = is_part ? contents_of(opened->handle, variable) : opened->all();
+    refuse_other_files(contents, variable);
+    if (is_part && contents.arrays.empty()) contents = opened->all();
+    const TableShape shape = choose_table(contents.arrays, variable, file.size());
+    return {table_of(opened->handle, shape), shape.name};
+  };
+  return {read, [=] { return recordable_tables(opened->all().arrays, file.size()); }};
+}
 
 }  // namespace slipfit::reading

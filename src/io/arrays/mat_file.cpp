@@ -244,19 +244,17 @@ auto refusing_damage(const Work& work) {
   }
 }
 
-ReadTable read_mat(std::string_view file, const std::optional<std::string>& variable) {
-  return refusing_damage([&]() -> ReadTable {
-    const TableShape shape = choose_table(arrays_in(file), variable, file.size());
-    return {table_of(file, shape), shape.name};
-  });
-}
-
-std::vector<std::string> tables_in_mat(std::string_view file) {
-  return refusing_damage([&] { return recordable_tables(arrays_in(file), file.size()); });
-}
-
 }  // namespace
 
-const ArrayFormat kMat{read_mat, tables_in_mat};
+ArrayFile open_mat_arrays(std::string_view file) {
+  const auto arrays = std::make_shared<const std::vector<ArrayShape>>(refusing_damage([&] { return arrays_in(file); }));
+  const auto read = [=](const std::optional<std::string>& variable) {
+    return refusing_damage([&]() -> ReadTable {
+      const TableShape shape = choose_table(*arrays, variable, file.size());
+      return {table_of(file, shape), shape.name};
+    });
+  };
+  return {read, [=] { return recordable_tables(*arrays, file.size()); }};
+}
 
 }  // namespace slipfit::reading

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -62,13 +63,16 @@ struct ReadTable {
   std::string name;
 };
 
-/// Reads the tables in the bytes of a file. Throws Refusal.
-struct ArrayFormat {
-  ReadTable (*read)(std::string_view file, const std::optional<std::string>& variable) = nullptr;
-  std::vector<std::string> (*tables)(std::string_view file) = nullptr;  ///< names of recordable_tables
+/// A file of arrays that is open. Both functions throw Refusal.
+struct ArrayFile {
+  std::function<ReadTable(const std::optional<std::string>& variable)> read;
+  std::function<std::vector<std::string>()> tables;  ///< returns the names of recordable_tables
 };
 
-extern const ArrayFormat kMat;   ///< MATLAB 5 to 7
-extern const ArrayFormat kHdf5;  ///< HDF5, which MATLAB 7.3 writes, too
+/// Opens the bytes of a file, which must outlive the result. Throws Refusal.
+using OpenArrays = ArrayFile(std::string_view file);
+
+OpenArrays open_mat_arrays;   ///< MATLAB 5 to 7
+OpenArrays open_hdf5_arrays;  ///< HDF5, which MATLAB 7.3 writes, too
 
 }  // namespace slipfit::reading

@@ -202,26 +202,91 @@ std::unique_ptr<ProgramStream> start(const Helper& helper, const FileHandle& inp
   throw ThrownError({"not_readable", name + ": " + helper.program + " cannot be started; check its permissions"});
 }
 
-/// The tables in a .mat or HDF5 file, which the program slipfit-hdf5 lists and reads.
+/// The error that a helper writes as "!CODE MESSAGE".
+ThrownError error_of(const std::string& line, const std::string& name) {
+  const std::size_t blank = std::min(line.find(' '), line.size());
+  if (!line.starts_with('!') || blank == line.size()) return damaged(name, "the file is damaged");
+  return ThrownError({line.substr(1, blank - 1), name + ": " + printable_utf8(line.substr(blank + 1))});
+}
+
+/// All tables of a file, which slipfit-hdf5 writes one after another. They are opened in their order.
+class TablesInOrder : public std::enable_shared_from_this<TablesInOrder> {
+ public:
+  TablesInOrder(HelperOutput all, std::string name) : bytes_(std::move(all.bytes)), name_(std::move(name)) {
+    std::istringstream list(all.first);
+    for (std::string table; std::getline(list, table, '\t');) names_.push_back(table);
+  }
+
+  [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
+
+  /// Null where the table is not one of those that follow.
+  std::unique_ptr<ByteStream> open(const std::string& table) {
+    if (std::find(names_.begin() + next_, names_.end(), table) == names_.end()) return nullptr;
+    for (bool is_found = false; !is_found;) {
+      for (std::array<char, 4096> unread{}; left_ > 0;) (void)read(unread.data(), unread.size());
+      is_found = names_[static_cast<std::size_t>(next_++)] == table;
+      const std::string head = line();
+      if (!head.starts_with('=') && is_found) throw error_of(head, name_);
+      if (head.starts_with('=')) left_ = std::strtoull(head.c_str() + 1, nullptr, 10);
+    }
+    return std::make_unique<Part>(shared_from_this());
+  }
+
+ private:
+  class Part final : public ByteStream {
+   public:
+    explicit Part(std::shared_ptr<TablesInOrder> tables) : tables_(std::move(tables)) {}
+    std::size_t read(char* buffer, std::size_t size) override { return tables_->read(buffer, size); }
+
+   private:
+    std::shared_ptr<TablesInOrder> tables_;
+  };
+
+  std::size_t read(char* buffer, std::size_t size) {
+    const std::size_t wanted = std::min(size, left_);
+    if (bytes_->read(buffer, wanted) < wanted) throw damaged(name_, "the file is damaged");
+    left_ -= wanted;
+    return wanted;
+  }
+
+  std::string line() {
+    std::string text;
+    char c = '\0';
+    while (bytes_->read(&c, 1) == 1 && c != '\n') text += c;
+    return text;
+  }
+
+  std::unique_ptr<ByteStream> bytes_;
+  std::string name_;
+  std::vector<std::string> names_;
+  std::ptrdiff_t next_ = 0;  ///< table
+  std::size_t left_ = 0;     ///< of the table that was opened last
+};
+
+/// The tables in a .mat or HDF5 file. The program slipfit-hdf5 reads one, or lists them and reads them in their order.
 Container arrays_in(const std::string& kind, TextStream packed, const std::string& name) {
   const auto file = std::make_shared<const FileHandle>(file_in_memory(*packed.bytes, name));
   const auto run = [file, name](std::vector<std::string> arguments) {
     return run_helper({"slipfit-hdf5", std::move(arguments), "a MATLAB or HDF5 file", "libhdf5-dev"}, *file, name);
   };
+  const auto in_order = std::make_shared<std::shared_ptr<TablesInOrder>>();
   const auto open = [=](const std::optional<std::string>& variable) {
-    std::vector<std::string> arguments{kind, kFileOfHelper};
-    if (variable) arguments.push_back(*variable);
-    HelperOutput read = run(arguments);
     TextStream text;
-    text.assumed.push_back("Of the file '" + printable_utf8(read.first) + "' was read.");
-    text.bytes = std::move(read.bytes);
+    if (*in_order && variable) text.bytes = (*in_order)->open(*variable);
+    std::string read = variable.value_or("");
+    if (text.bytes == nullptr) {
+      std::vector<std::string> arguments{kind, kFileOfHelper};
+      if (variable) arguments.push_back(*variable);
+      HelperOutput one = run(arguments);
+      read = std::move(one.first);
+      text.bytes = std::move(one.bytes);
+    }
+    text.assumed.push_back("Of the file '" + printable_utf8(read) + "' was read.");
     return text;
   };
   return {open, [=] {
-            std::istringstream list(run({kind + "-tables", kFileOfHelper}).first);
-            std::vector<std::string> tables;
-            for (std::string table; std::getline(list, table, '\t');) tables.push_back(table);
-            return tables;
+            *in_order = std::make_shared<TablesInOrder>(run({kind + "-all", kFileOfHelper}), name);
+            return (*in_order)->names();
           }};
 }
 
@@ -231,9 +296,7 @@ HelperOutput run_helper(const Helper& helper, const FileHandle& input, const std
   std::unique_ptr<ProgramStream> bytes = start(helper, input, name);
   const std::string first = bytes->line();
   if (first.starts_with('=')) return {first.substr(1), std::move(bytes)};
-  const std::size_t blank = std::min(first.find(' '), first.size());
-  if (!first.starts_with('!') || blank == first.size()) throw damaged(name, "the file is damaged");
-  throw ThrownError({first.substr(1, blank - 1), name + ": " + printable_utf8(first.substr(blank + 1))});
+  throw error_of(first, name);
 }
 
 FileHandle file_in_memory(ByteStream& stream, const std::string& name) {

@@ -19,16 +19,17 @@ auto with_name(const std::string& name, const Work& work) {
   }
 }
 
-Container arrays_in(const ArrayFormat& format, TextStream packed, const std::string& name) {
-  const auto file = std::make_shared<const std::string>(read_all(packed, name));
-  const auto open = [=](const std::optional<std::string>& variable) {
-    ReadTable read = with_name(name, [&] { return format.read(*file, variable); });
+Container arrays_in(OpenArrays open_arrays, TextStream packed, const std::string& name) {
+  const auto bytes = std::make_shared<const std::string>(read_all(packed, name));
+  const ArrayFile file = with_name(name, [&] { return open_arrays(*bytes); });
+  const auto open = [bytes, file, name](const std::optional<std::string>& variable) {
+    ReadTable read = with_name(name, [&] { return file.read(variable); });
     TextStream text;
     text.bytes = text_of(std::move(read.table));
     text.assumed.push_back("Of the file '" + printable_utf8(read.name) + "' was read.");
     return text;
   };
-  return {open, [=] { return with_name(name, [&] { return format.tables(*file); }); }};
+  return {open, [bytes, file, name] { return with_name(name, file.tables); }};
 }
 
 }  // namespace
@@ -44,11 +45,11 @@ FileHandle file_in_memory(ByteStream& /*stream*/, const std::string& /*name*/) {
 }
 
 Container open_hdf5(TextStream packed, const std::string& name) {
-  return arrays_in(kHdf5, std::move(packed), name);
+  return arrays_in(open_hdf5_arrays, std::move(packed), name);
 }
 
 Container open_mat(TextStream packed, const std::string& name) {
-  return arrays_in(kMat, std::move(packed), name);
+  return arrays_in(open_mat_arrays, std::move(packed), name);
 }
 
 }  // namespace slipfit::reading
