@@ -45,7 +45,7 @@ bool is_manifest(const std::string& file) {
 std::vector<slipfit::ManifestEntry> manifest_entries(const std::string& manifest,
                                                      const std::optional<std::string>& group,
                                                      const std::vector<std::string>& only) {
-  const std::vector<slipfit::ManifestEntry> entries = value_or_fail(slipfit::read_manifest_group(manifest, group));
+  std::vector<slipfit::ManifestEntry> entries = value_or_fail(slipfit::read_manifest_group(manifest, group));
   if (only.empty()) return entries;
   std::vector<slipfit::ManifestEntry> chosen;
   for (const std::string& id : only) {

@@ -102,7 +102,7 @@ std::string document(const FitArguments& arguments, const std::string& id, const
   if (arguments.document.json) {
     return slipfit::to_json(recording, analysis, {.id = id, .timing = arguments.timing}) + "\n";
   }
-  const std::string text =
+  std::string text =
       arguments.document.details ? slipfit::to_text(recording, analysis) : slipfit::to_summary(recording, analysis);
   if (!arguments.timing) return text;
   const slipfit::Timing& timing = analysis.timing;

@@ -191,7 +191,7 @@ bool is_wanted(const std::string& path, const std::string& variable) {
   return is_called(path, variable) || is_called(path.substr(0, path.rfind('/')), variable);
 }
 
-/// Of what a variable names, where it is given.
+/// Returns the arrays of the file: all, or those that the variable names.
 Contents contents_of(hid_t file, const std::optional<std::string>& variable) {
   Contents contents;
   Paths datasets;
