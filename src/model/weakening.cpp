@@ -204,7 +204,9 @@ std::vector<SlipPart> WeakeningSlip::parts() const {
   const double rate = std::abs(zeta_.a) + std::sqrt(std::abs(zeta_.a * zeta_.a + stiffening_.a));
   std::vector<SlipPart> parts;
   const auto add = [&](double from, double to, double fastest, bool weakens) {
+    constexpr double kMost = 1e3;  // a search far from any slip may try one that hardly ends
     const double count = std::ceil(std::max(1.0, fastest) * (to - from));  // in steps of a radian: kSeriesOrder
+    if (!(count < kMost)) return;
     for (double i = 0.0; i < count; ++i) {
       const Jet begin(from + i / count * (to - from));
       parts.push_back(part_from(weakens ? weakening_at(begin) : weakened_at(begin), (to - from) / count, weakens));

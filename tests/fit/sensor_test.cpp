@@ -176,6 +176,24 @@ TEST_CASE("the response of a filter is that of its sections in a chain") {
   CHECK(worst < 2.0 * step * step + 1e-6);  // straight between samples: h^2 / 8 of a bend of 8, twice
 }
 
+TEST_CASE("a slip that hardly ends, or whose end is no number, does not end the program behind a filter") {
+  const std::size_t order = GENERATE(1, 2, 4);
+  const fit::Sensor sensor{0.5, 0.0, order};
+  int without_number = 0;
+  for (const double zeta : {0.1, 1.0 - 1e-9, 1.0 - 1e-16, -0.5, -0.99997107734733037}) {
+    for (const double z0 : {1e-300, 1.0, 2429.1426878275092, 1e100}) {
+      if (!(z0 + 2.0 * zeta > 0.0) || !(zeta < 1.0)) continue;
+      CAPTURE(order, zeta, z0);
+      const fit::CoulombCycle cycle(z0, zeta, sensor, ForceView::Spring);
+      const bool is_slip = cycle.tau_end() < fit::CoulombWave::kLongest;
+      if (is_slip) CHECK(std::isfinite(cycle.at(1.0).z));
+      if (zeta > 0.9) CHECK_FALSE(is_slip);
+      if (std::isnan(cycle.tau_end())) ++without_number;
+    }
+  }
+  CHECK(without_number > 0);
+}
+
 TEST_CASE("without the stated bandwidth the same slip gives another natural frequency") {
   const Scene s{.jitter = 0.03, .noise = 0.01};
   const Analysis analysis = analyze_and_fit(through_sensor(s, 0.3 / s.omega));

@@ -94,7 +94,9 @@ std::optional<CycleState> CycleModel::state(const Coordinates& shared, const dou
     return motion ? std::optional(CycleState{f, *std::move(motion)}) : std::nullopt;
   }
   if (!(f.z0() + 2.0 * f.zeta > 0.0) || !(std::abs(f.zeta) < 1.0) || !std::isfinite(f.z0())) return std::nullopt;
-  return CycleState{f, CoulombCycle(f.z0(), f.zeta, sensor.in_tau(f.omega_rad_per_s), scales_.view)};
+  CoulombCycle motion(f.z0(), f.zeta, sensor.in_tau(f.omega_rad_per_s), scales_.view);
+  if (!(motion.tau_end() < CoulombWave::kLongest)) return std::nullopt;
+  return CycleState{f, std::move(motion)};
 }
 
 /// Forms residuals and their Jacobian column by column, as the processor's vectors do it several rows at a time. The

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "fit/cycle/sensor.hpp"
 
@@ -17,7 +18,9 @@ class ShownMotion {
   ShownMotion(Motion motion, const Sensor& sensor)
       : motion_(std::move(motion)), half_window_(0.5 * sensor.average_tau) {
     if (!(sensor.lag_tau > 0.0)) return;
-    filter_.emplace(motion_.at(0.0), motion_.at(-sensor.lag_tau), motion_.parts(), sensor.order, sensor.lag_tau);
+    std::vector<model::SlipPart> parts = motion_.parts();
+    if (parts.empty()) return;  // no slip: the force of such a motion is no number
+    filter_.emplace(motion_.at(0.0), motion_.at(-sensor.lag_tau), std::move(parts), sensor.order, sensor.lag_tau);
   }
 
   /// Returns the motion without the sensor.

@@ -8,6 +8,7 @@ std::vector<model::SlipPart> CoulombMotion::parts() const {
   using model::PartJet;
   const PartJet z0(wave_.slip.z0, 0);
   const PartJet zeta(wave_.slip.zeta, 1);
+  if (!(tau_end() < CoulombWave::kLongest)) return {};
   const double count = std::ceil(tau_end());  // in steps of a radian: kSeriesOrder
   const double length = tau_end() / count;
   std::vector<model::SlipPart> parts;

@@ -17,6 +17,9 @@ namespace slipfit::fit {
 /// A cycle under Coulomb friction in its view, without a sensor, in the units of model/slip.hpp: closed form.
 class CoulombWave {
  public:
+  /// Radians: a search far from any slip may try one that hardly ends, or has no end.
+  static constexpr double kLongest = 1e3;
+
   /// `z0`: spring force above F_k at the onset. Needs z0 + 2 zeta > 0 and |zeta| < 1.
   CoulombWave(double z0, double zeta, ForceView view)
       : slip(model::solve_slip(z0, zeta)),
@@ -68,6 +71,7 @@ class CoulombMotion {
   }
   [[nodiscard]] MotionPoint integral_to(double tau) const { return force_.integral_to(tau); }
   [[nodiscard]] double tau_end() const { return wave_.slip.tau_end; }
+  /// Returns the parts of the slip; none of one that does not end within CoulombWave::kLongest.
   [[nodiscard]] std::vector<model::SlipPart> parts() const;
 
  private:
