@@ -5,6 +5,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <string>
 #include <string_view>
 
@@ -29,7 +30,9 @@ class Cursor {
     std::array<char, sizeof(Number)> raw{};
     bytes(raw.size()).copy(raw.data(), raw.size());
     if (order_ != std::endian::native) std::ranges::reverse(raw);
-    return std::bit_cast<Number>(raw);
+    Number number{};
+    std::memcpy(&number, raw.data(), raw.size());  // the browser's library has no std::bit_cast
+    return number;
   }
   [[nodiscard]] std::string_view rest() const { return rest_; }
   std::string text() { return std::string(bytes(number<std::uint32_t>())); }
