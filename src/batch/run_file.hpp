@@ -17,7 +17,7 @@ struct FileDigests {
 };
 
 /// The contents of run.json: what was run, and how far it got.
-struct RunRecord {
+struct RunRecord {  // NOLINT(bugprone-exception-escape): to move JSON throws nothing
   std::string version;
   std::string build;      ///< build_of_program(), or "unknown": of a program that did not write it
   std::string processor;  ///< processor_of_machine() of all machines that worked on it, separated by "; "
