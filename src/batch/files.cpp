@@ -25,8 +25,8 @@ fs::path folder_of(const fs::path& file) {
   return file.has_parent_path() ? file.parent_path() : ".";
 }
 
-/// Opens a new file in place of one that a killed process may have left. It has the mode of `mode_of`, or, where there
-/// is none, that which the umask leaves. Returns -1 with errno where it cannot be made.
+/// Opens a new file and removes one of this name, which a killed process may have left. The new file gets the
+/// permissions of the file `mode_of` where that exists, otherwise the usual ones. Returns -1 with errno on failure.
 int open_new(const fs::path& file, const fs::path& mode_of) {
   struct stat status {};
   const bool exists = ::lstat(mode_of.c_str(), &status) == 0 && S_ISREG(status.st_mode);

@@ -309,7 +309,8 @@ constexpr std::array kFields = std::to_array<ManifestField>({
                set_segments),
 });
 
-/// The text with the manifest's columns in place of the options of the command line that say the same.
+/// Returns an error's text for the user of a manifest: it names columns of the manifest, not options of the command
+/// line.
 std::string with_columns_for_options(std::string text) {
   for (const ManifestField& field : kFields) {
     const std::string_view option = field.said.name();

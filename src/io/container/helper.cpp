@@ -47,14 +47,6 @@ class ProgramStream final : public ByteStream {
     return count;
   }
 
-  /// Up to the first line end.
-  std::string line() {
-    std::string text;
-    char c = '\0';
-    while (read(&c, 1) == 1 && c != '\n') text += c;
-    return text;
-  }
-
  private:
   using Clock = std::chrono::steady_clock;
 
@@ -202,7 +194,15 @@ std::unique_ptr<ProgramStream> start(const Helper& helper, const FileHandle& inp
   throw ThrownError({"not_readable", name + ": " + helper.program + " cannot be started; check its permissions"});
 }
 
-/// The error that a helper writes as "!CODE MESSAGE".
+/// Returns what a helper writes up to the next line end. It is read byte by byte: what follows may be binary.
+std::string next_line(ByteStream& bytes) {
+  std::string text;
+  char c = '\0';
+  while (bytes.read(&c, 1) == 1 && c != '\n') text += c;
+  return text;
+}
+
+/// Returns the error that a helper writes as "!CODE MESSAGE".
 ThrownError error_of(const std::string& line, const std::string& name) {
   const std::size_t blank = std::min(line.find(' '), line.size());
   if (!line.starts_with('!') || blank == line.size()) return damaged(name, "the file is damaged");
@@ -225,7 +225,7 @@ class TablesInOrder : public std::enable_shared_from_this<TablesInOrder> {
     for (bool is_found = false; !is_found;) {
       for (std::array<char, 4096> unread{}; left_ > 0;) (void)read(unread.data(), unread.size());
       is_found = names_[static_cast<std::size_t>(next_++)] == table;
-      const std::string head = line();
+      const std::string head = next_line(*bytes_);
       if (!head.starts_with('=') && is_found) throw error_of(head, name_);
       if (head.starts_with('=')) left_ = std::strtoull(head.c_str() + 1, nullptr, 10);
     }
@@ -247,13 +247,6 @@ class TablesInOrder : public std::enable_shared_from_this<TablesInOrder> {
     if (bytes_->read(buffer, wanted) < wanted) throw damaged(name_, "the file is damaged");
     left_ -= wanted;
     return wanted;
-  }
-
-  std::string line() {
-    std::string text;
-    char c = '\0';
-    while (bytes_->read(&c, 1) == 1 && c != '\n') text += c;
-    return text;
   }
 
   std::unique_ptr<ByteStream> bytes_;
@@ -293,8 +286,8 @@ Container arrays_in(const std::string& kind, TextStream packed, const std::strin
 }  // namespace
 
 HelperOutput run_helper(const Helper& helper, const FileHandle& input, const std::string& name) {
-  std::unique_ptr<ProgramStream> bytes = start(helper, input, name);
-  const std::string first = bytes->line();
+  std::unique_ptr<ByteStream> bytes = start(helper, input, name);
+  const std::string first = next_line(*bytes);
   if (first.starts_with('=')) return {first.substr(1), std::move(bytes)};
   throw error_of(first, name);
 }

@@ -22,7 +22,7 @@ namespace {
 
 using namespace std::string_view_literals;
 
-/// By the name without the order of the bytes.
+/// The kinds of numbers. A file names them so, after a sign for the order of their bytes.
 constexpr std::array kArrayTypes{number_type<float>("f4"sv),         number_type<double>("f8"sv),
                                  number_type<std::int8_t>("i1"sv),   number_type<std::int16_t>("i2"sv),
                                  number_type<std::int32_t>("i4"sv),  number_type<std::int64_t>("i8"sv),
