@@ -358,10 +358,12 @@ std::optional<ManifestColumn> recognise(const std::string& name, std::size_t ind
     if (text->unit.empty()) return ManifestColumn{&field, index, printable_utf8(name), std::nullopt, {}};
     if (!field.dimension) continue;
     const std::string shown = printable_utf8(text->unit);
-    if (const Result<UnitScale> unit = parse_unit(text->unit, *field.dimension)) {
+    const Result<UnitScale> unit = parse_unit(text->unit, *field.dimension);
+    if (unit.ok()) {
       const bool is_si = unit.value().scale == 1.0;
       return ManifestColumn{&field, index, printable_utf8(name), unit.value().scale, is_si ? std::string() : shown};
-    } else if (text->in_brackets) {
+    }
+    if (text->in_brackets) {
       const bool is_rotation =
           *field.dimension == Dimension::Speed && parse_unit(text->unit, Dimension::AngularSpeed).ok();
       const std::string cause =
@@ -447,12 +449,12 @@ void set_number(ManifestEntry& entry, const ManifestColumn& column, const std::s
 }
 
 void set_window(ManifestEntry& entry, const ManifestColumn& column, const std::string& cell, bool decimal_comma) {
-  const auto wrong = refusal("bad_window", cell, "T0:T1 with T0 < T1, on the recording's own clock");
+  const char* const expected = "T0:T1 with T0 < T1, on the recording's own clock";
   const std::size_t colon = cell.find(':');
-  if (colon == std::string::npos) throw wrong;
+  if (colon == std::string::npos) throw refusal("bad_window", cell, expected);
   const double begin_s = number_in(cell.substr(0, colon), entry, column, decimal_comma);
   const double end_s = number_in(cell.substr(colon + 1), entry, column, decimal_comma);
-  if (!(begin_s < end_s)) throw wrong;
+  if (!(begin_s < end_s)) throw refusal("bad_window", cell, expected);
   entry.options.window = TimeWindow{begin_s, end_s};
 }
 
