@@ -9,7 +9,7 @@ motion (default for recordings)
     verdict: right kinds of motion. f, x: frequency and spacing V / f, within 5 % of the truth, inside the interval, and absurd (off by a
     factor of 2 or more; any number where there is none). stretch: both ends within 1.5 periods, where part of the recording slides otherwise.
     k ... l: intervals that contain the truth, of those given; !!: confidently wrong, that is `identified` and off by more than the width of the
-    interval (4 standard errors) and 2 %. extra: terms taken (average T_b, D_c, rise A) that the scene does not have.
+    interval (4 standard errors) and 2 %. extra: terms taken (average T_b, D_c, rise A, k that changes) that the scene does not have.
 sweeps (default for sweeps)
     fit: sweeps that can be predicted from. bands: spacings at 2 and 4 times the fastest recording inside their interval; half: median
     half-width (percent); none: no interval; wrong: off by more than twice a half-width below 25 %; silent: of those, without a warning. V_c:
@@ -39,9 +39,9 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
 from study import Row, counts, in_parallel, is_answer, median, parser, print_table, read_truths, run, share, total  # noqa: E402
 
 SHORT = {"stiffness_N_per_m": "k", "friction_difference_N": "dF", "natural_frequency_rad_per_s": "w_n", "damping_ratio": "zeta",
-         "mass_kg": "m", "sensor_average_s": "T_b", "slip_distance_m": "D_c", "reload_force_N": "A", "reload_length_m": "l"}
+         "mass_kg": "m", "sensor_average_s": "T_b", "slip_distance_m": "D_c", "reload_force_N": "A", "reload_length_m": "l", "stiffness_ratio": "k_e/k_s"}
 ALSO = {"kinetic_friction_N": "F_k", "alpha_s_per_m": "alpha", "static_first_peak": "mu_first", "static_mean_peak": "mu_mean"}  # where known
-TERMS = ("sensor_average_s", "slip_distance_m", "reload_force_N")
+TERMS = ("sensor_average_s", "slip_distance_m", "reload_force_N", "stiffness_ratio")
 NO_SLIPS = {"oscillatory_slip", "undetermined", "steady_sliding"}
 RIGHT = {"stick_slip": {"stick_slip"}, "reciprocating": {"stick_slip"}, "joint": {"stick_slip"}, "steady": {"steady_sliding"}, "wave": NO_SLIPS, "ringdown": NO_SLIPS}
 

@@ -25,7 +25,7 @@ def _release(omega, zeta, force, step, seconds):
     return force * np.exp(-zeta * omega * t) * (np.cos(damped * omega * t) + zeta / damped * np.sin(damped * omega * t))
 
 
-def _scene(rng, average=False, weakens=False, reloads=False, rings=None, relaxes=False):
+def _scene(rng, average=False, weakens=False, reloads=False, rings=None, relaxes=False, shortens=False):
     """`rings`: by which w_n of the slips differs from that of the ring-down after a release at the end; None: no release."""
     rig = draw_rig(rng, per_slip=(20, 60), ratio=(5, 25))
     rig.step /= FINE
@@ -37,7 +37,10 @@ def _scene(rng, average=False, weakens=False, reloads=False, rings=None, relaxes
     if relaxes:
         rig.model.relax_share = _log_uniform(rng, 0.05, 0.7)
         rig.model.relax_time = _log_uniform(rng, 0.01, 10.0) * rig.period_s
-    motion = rig.run((rig.count + 2) * rig.period_s)
+    seconds = (rig.count + 2) * rig.period_s
+    if shortens:  # k at the end of the path over k at its start
+        rig.model.line_length = rig.speed * seconds / (1 - 1 / _log_uniform(rng, 1.05, 1.6) ** rng.choice([-1, 1]))
+    motion = rig.run(seconds)
     window_s = _log_uniform(rng, 0.3, 6.0) / rig.model.omega if average else 0.0
     time_s, force, end_s = motion.time_s, motion.force, motion.time_s[-1]
     if rings:
@@ -55,6 +58,13 @@ def _scene(rng, average=False, weakens=False, reloads=False, rings=None, relaxes
     if average:
         truth["parameters"]["sensor_average_s"] = window_s
     truth["parameters"]["mass_kg"] = rig.model.stiffness / rig.model.omega**2
+    if shortens:
+        growth = 1 / (1 - rig.speed * np.array([truth["slips_s"][1], truth["slips_s"][-1], 0.4 * end_s, 0.6 * end_s]) / rig.model.line_length)
+        middle = growth[2:]  # give or take a tenth of the path
+        truth["parameters"]["stiffness_N_per_m"] = sorted(rig.model.stiffness * middle)
+        truth["parameters"]["natural_frequency_rad_per_s"] = sorted(rig.model.omega * np.sqrt(middle))
+        truth["parameters"]["damping_ratio"] = sorted(rig.model.damping_ratio / np.sqrt(middle))
+        truth["parameters"]["stiffness_ratio"] = sorted([growth[1] / growth[0], 1 / (1 - rig.speed * end_s / rig.model.line_length)])
     if relaxes:  # k between the relaxed and the instantaneous one is right, and w_n goes with it
         for name in ("stiffness_N_per_m", "natural_frequency_rad_per_s", "damping_ratio"):
             del truth["parameters"][name]
@@ -75,5 +85,7 @@ FAMILIES = families(
     rings=lambda rng: _scene(rng, rings=1.0),
     average_rings=lambda rng: _scene(rng, average=True, rings=1.0),
     rings_otherwise=lambda rng: _scene(rng, rings=rng.uniform(1.15, 2.0)),  # another mode than that of the slips rings after the release
+    shortens=lambda rng: _scene(rng, shortens=True),  # a line of which the drive takes or gives some: k changes along the path
+    shortens_average=lambda rng: _scene(rng, shortens=True, average=True),
     relaxes=lambda rng: _scene(rng, relaxes=True),  # a standard linear solid in place of the spring, and the damper
 )

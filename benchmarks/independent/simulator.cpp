@@ -8,7 +8,7 @@ namespace independent {
 namespace {
 
 struct State {
-  double force, velocity, slid, sensor, sensor_rate, since_slip, relaxing, behind, slow, heat;
+  double force, velocity, slid, sensor, sensor_rate, since_slip, relaxing, behind, slow, heat, drawn;
 };
 
 double sign_of(double x) {
@@ -43,6 +43,7 @@ double tangent(const Model* m, const State* s, int sliding) {
   if (m->stiffening > 0) k += 3.0 * m->stiffening * std::pow(s->force / m->stiffness, 2);
   if (m->reload_length > 0 && !sliding)
     k += m->reload_force / m->reload_length * std::exp(-s->since_slip / m->reload_length);
+  if (m->line_length != 0) k /= 1.0 - s->drawn / m->line_length;
   return k;
 }
 
@@ -60,6 +61,7 @@ State rate(const Model* m, const State* s, double commanded, double kinetic, dou
   const double drive = actual(m, s, commanded);
   double velocity = 0.0;
   d.behind = commanded - drive;
+  d.drawn = drive;
   if (sliding) {
     velocity = s->velocity;
     const double f = direction * load(m, s->force, kinetic) *

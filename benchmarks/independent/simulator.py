@@ -18,7 +18,7 @@ class Model(ctypes.Structure):
         "stiffness omega damping_ratio stribeck_force stribeck_speed quadratic weakening_length ageing ageing_time "
         "creep_force creep_share reload_force reload_length stiffening sensor_omega sensor_damping precursor_at "
         "precursor_share aftershock_s aftershock_share velocity_law ageing_law "
-        "relax_share relax_time servo_compliance servo_time slow_share slow_time heat_slope heat_time load_slope").split()]
+        "relax_share relax_time servo_compliance servo_time slow_share slow_time heat_slope heat_time line_length load_slope").split()]
 
 
 class Course(ctypes.Structure):

@@ -27,7 +27,9 @@ enum Coordinate : Eigen::Index {
   kReloadForce,        ///< A / Units::force, of the rise after a slip
   kReloadLength,       ///< ln (l / m), of the path over which it rises
   kStiffnessExponent,  ///< d ln k / d ln V, of a sweep; k and w_n are those at Units::speed_m_per_s
-  kSensorTime,         ///< (time / Scales::sensor_time_unit_s)^2, of the time of the sensor that is free
+  /// Half of the change of ln k from the first to the last cycle: k and w_n are those in the middle of the path.
+  kStiffnessDrift,
+  kSensorTime,  ///< (time / Scales::sensor_time_unit_s)^2, of the time of the sensor that is free
   kLevel,              ///< F_k(0+) / Units::force, from Units::level
   kDifference,         ///< (F_s - F_k(0+)) / Units::force
   kAgeing,             ///< rate of ageing / Units::force
@@ -37,10 +39,10 @@ enum Coordinate : Eigen::Index {
 
 using Coordinates = Eigen::Matrix<double, kCoordinates, 1>;
 using CoordinateMatrix = Eigen::Matrix<double, kCoordinates, kCoordinates>;
-/// What each recording of a sweep has for itself: it may share F_s - F_k(0+); A goes with the load. All else belongs to
-/// the contact and the rig.
+/// What each recording of a sweep has for itself: it may share F_s - F_k(0+); A goes with the load, and where along a
+/// path k changes is the recording's. All else belongs to the contact and the rig.
 constexpr bool is_of_recording(Coordinate coordinate) {
-  return coordinate == kDifference || coordinate == kReloadForce;
+  return coordinate == kDifference || coordinate == kReloadForce || coordinate == kStiffnessDrift;
 }
 
 /// Those of the rig and of friction in the slip come first.

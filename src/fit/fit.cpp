@@ -108,7 +108,7 @@ std::vector<CurvePoint> curve_of(const Recording& recording, const BlockFit& blo
   std::vector<CurvePoint> curve;
   for (std::size_t c = 0; c < blocks.size(); ++c) {
     const CycleState state = blocks.state(c);
-    const std::optional<fit::CycleRise> rise = blocks.model(c).rise(blocks.parameters.values);
+    const fit::StickBend bend = blocks.model(c).bend(blocks.parameters.values);
     const double* local = blocks.parameters.cycles[c].data();
     auto i = static_cast<std::size_t>(std::lower_bound(time_s.begin(), time_s.end(), blocks.data(c).window_begin_s) -
                                       time_s.begin());
@@ -116,7 +116,7 @@ std::vector<CurvePoint> curve_of(const Recording& recording, const BlockFit& blo
       const double interference = blocks.model(c).hum_at(time_s[i], blocks.level_data());
       curve.push_back({i,
                        blocks.model(c).level_at(time_s[i], blocks.level_data(), local) + interference +
-                           (rise ? rise->at(time_s[i]) : 0.0) + state.force_at(time_s[i]),
+                           bend.at(time_s[i]) + state.force_at(time_s[i]),
                        interference});
     }
   }

@@ -13,6 +13,8 @@ using Id = ParameterId;
 constexpr std::array kTable{
     ParameterInfo{Id::Stiffness, "stiffness_N_per_m", "tangential stiffness k", "N/m", kNotNegative, 0.05, true},
     ParameterInfo{Id::StiffnessExponent, "stiffness_exponent", "stiffness exponent p, k ~ V^p", "", kAnyNumber, 0.25},
+    ParameterInfo{Id::StiffnessRatio, "stiffness_ratio", "k at the end of the path over k at its start", "",
+                  kNotNegative, 0.1},
     ParameterInfo{Id::FrictionDifference, "friction_difference_N", "friction drop F_s - F_k", "N", kNotNegative, 0.1},
     ParameterInfo{Id::FrictionCoefficientDifference, "friction_coefficient_difference",
                   "drop of the friction coefficient", "", kNotNegative, 0.1},

@@ -15,6 +15,7 @@ namespace slipfit {
 enum class ParameterId : std::size_t {
   Stiffness,
   StiffnessExponent,
+  StiffnessRatio,
   FrictionDifference,
   FrictionCoefficientDifference,
   Ageing,

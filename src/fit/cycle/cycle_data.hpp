@@ -94,6 +94,7 @@ struct Scales {
   double half_period_s = 1.0;           ///< from the largest to the smallest force of a slip, pi / (w_n b)
   FrictionLaw law = FrictionLaw::Coulomb;
   double slip_distance_m = 1.0;              ///< Units::slip_distance_m
+  bool stiffness_drifts = false;             ///< k changes along the path: kStiffnessDrift
   std::optional<RelaxingCycles> relaxing{};  ///< the spring relaxes (docs/model.md section 10); empty: it does not
   std::optional<Population> population{};    ///< of a sweep
 

@@ -1,6 +1,7 @@
 #include "fit/cycle/cycle_model.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <tuple>
@@ -11,6 +12,17 @@
 #include "fit/law/speed_dependent.hpp"
 
 namespace slipfit::fit {
+namespace {
+
+/// A coordinate by which ln k differs from cycle to cycle. ln w_n of the same mass differs by half of it, ln zeta by a
+/// multiple. docs/model.md (26), (26a)
+struct Growth {
+  Coordinate coordinate{};
+  double of_log_damping = 0.0;
+};
+constexpr std::array kGrowths{Growth{kStiffnessExponent, 0.0}, Growth{kStiffnessDrift, -0.5}};
+
+}  // namespace
 
 Columns::Columns(const Scales& scales, const LevelModel& level)
     : has_constant_(level.terms > 0 || scales.population.has_value()),
@@ -33,6 +45,7 @@ Columns::Columns(const Scales& scales, const LevelModel& level)
   if (level.reloading) add(kReloadForce);
   if (level.reloading && level.reloading->is_free) add(kReloadLength);
   if (scales.population && scales.population->log_speed) add(kStiffnessExponent);
+  if (scales.stiffness_drifts) add(kStiffnessDrift);
   if (scales.free_time != FreeTime::None) add(kSensorTime);
   if (scales.population) add(kDifference);
 }
@@ -54,12 +67,20 @@ CycleModel::CycleModel(const CycleSet& set, std::size_t cycle, const Scales& sca
       reference_s_(set.reference_s()[cycle]),
       even_step_s_(set.even_step_s(cycle)) {}
 
-Coordinates CycleModel::at_speed(const Coordinates& shared) const {
+double CycleModel::share_of(Coordinate coordinate) const {
+  if (coordinate == kStiffnessExponent) return *scales_.population->log_speed;
+  return place_at(reference_s_);
+}
+
+Coordinates CycleModel::of_cycle(const Coordinates& shared) const {
   Coordinates here = shared;
-  if (!columns_->has(kStiffnessExponent)) return here;
-  const double growth = shared(kStiffnessExponent) * *scales_.population->log_speed;
-  here(kLogStiffness) += growth;
-  here(kLogFrequency) += 0.5 * growth;
+  for (const Growth& growth : kGrowths) {
+    if (!columns_->has(growth.coordinate)) continue;
+    const double of_log_stiffness = shared(growth.coordinate) * share_of(growth.coordinate);
+    here(kLogStiffness) += of_log_stiffness;
+    here(kLogFrequency) += 0.5 * of_log_stiffness;
+    here(kDamping) *= std::exp(growth.of_log_damping * of_log_stiffness);
+  }
   return here;
 }
 
@@ -81,8 +102,26 @@ std::optional<CycleRise> CycleModel::rise(const Coordinates& shared) const {
                    RiseAroundSlip(*level_->reloading, data_->slip, std::exp(shared(kReloadLength)), average_s)};
 }
 
+StickBend CycleModel::bend(const Coordinates& shared) const {
+  const double curvature = columns_->has(kStiffnessDrift)
+                               ? shared(kStiffnessDrift) * curvature_by_drift(std::exp(of_cycle(shared)(kLogStiffness)))
+                               : 0.0;
+  return {rise(shared), curvature, StickEnds(reference_s_, scales_)};
+}
+
+StickBend::Line StickBend::over(const StickBin& bin) const {
+  const double from_slip_s = ends.from_slip(bin.time_s);
+  const double spread = bin.count > 0.0 ? bin.time_spread / bin.count : 0.0;
+  Line line{0.5 * curvature * (from_slip_s * from_slip_s + spread), curvature * from_slip_s};
+  if (!rise) return line;
+  const RiseAfterSlip::Line of_rise = rise->share.over(bin);
+  line.mean += rise->force * of_rise.mean.value;
+  line.slope += rise->force * of_rise.slope.value;
+  return line;
+}
+
 std::optional<CycleState> CycleModel::state(const Coordinates& shared, const double* local) const {
-  const Coordinates here = at_speed(shared);
+  const Coordinates here = of_cycle(shared);
   const CycleFrame f = frame(here, local);
   const SensorTimes sensor = sensor_of(scales_, here);
   if (scales_.law == FrictionLaw::Weakening) {
@@ -177,6 +216,9 @@ class CycleModel::Rows {
     if (jacobian_ != nullptr) differentiate(frame, z, by_noise);
     Column(residuals_, z.size()) =
         by_noise * (rows_.weight * (rows_.force - u * z) - constant_force() * rows_.level_weight);
+    if (columns_.has(kStiffnessDrift)) {
+      Column(residuals_, z.size()) -= (*values_.shared)(kStiffnessDrift)*by_curvature(frame, by_noise);
+    }
     for (Index i = 0; i < rows_.level.cols(); ++i) {
       Column(residuals_, z.size()) -= by_noise * scales_.force * values_.drift[i] * rows_.weight * rows_.level.col(i);
     }
@@ -221,9 +263,7 @@ class CycleModel::Rows {
     line(kLogStiffness) = -weight * drag;
     line(kLogFrequency) = weight * drag;
     line(kDamping) = -weight * 2.0 * frame.force_scale;
-    if (columns_.has(kStiffnessExponent)) {
-      line(of(kStiffnessExponent)) = log_speed() * (line(kLogStiffness) + 0.5 * line(kLogFrequency));
-    }
+    add_growths(frame, [&line](Index i) { return line.segment<1>(i); });
     line(of(kDifference)) = weight * scales_.population->force;
     line(onset_ + 1) = -weight * scales_.force;
   }
@@ -250,8 +290,6 @@ class CycleModel::Rows {
     return cycle_.level_->per_cycle ? scales_.level + scales_.force * values_.local[2]
                                     : scales_.level_zero() + scales_.level_unit() * *values_.constant;
   }
-  /// k varies with the speed by this, and w_n by half of it. docs/model.md (26)
-  [[nodiscard]] double log_speed() const { return *scales_.population->log_speed; }
 
   void differentiate(const CycleFrame& frame, const Column& z, double by_noise) const {
     const Eigen::ArrayXd& weight = rows_.weight;
@@ -259,13 +297,15 @@ class CycleModel::Rows {
     const double scaled = -by_noise * frame.force_scale;
     column(kLogStiffness) = scaled * weight * (z - frame.z0() * column(onset_ + 1));  // at a fixed tau
     column(kLogFrequency) = scaled * weight * column(kLogFrequency) - column(kLogStiffness);
+    if (columns_.has(kStiffnessDrift)) {
+      column(kLogStiffness) -= (*values_.shared)(kStiffnessDrift)*by_curvature(frame, by_noise);
+    }
     for (const Coordinate of_law :
          {kDamping, kFrictionSlope, kFrictionRate, kSlipDistance, kRelaxation, kRelaxationTime}) {
       if (columns_.has(of_law)) column(of(of_law)) *= scaled * weight;
     }
-    if (columns_.has(kStiffnessExponent)) {
-      column(of(kStiffnessExponent)) = log_speed() * (column(kLogStiffness) + 0.5 * column(kLogFrequency));
-    }
+    add_growths(frame, [this](Index i) { return column(i); });
+    if (columns_.has(kStiffnessDrift)) column(of(kStiffnessDrift)) -= by_curvature(frame, by_noise);
     if (columns_.has(kSensorTime)) column(of(kSensorTime)) *= 0.5 / (*values_.shared)(kSensorTime)*scaled * weight;
     if (columns_.has(kDifference)) column(of(kDifference)).setZero();
     if (columns_.has_constant() && per_cycle) column(constant()).setZero();
@@ -278,6 +318,25 @@ class CycleModel::Rows {
     column(onset_) *= -scaled * frame.omega_rad_per_s * scales_.half_period_s * weight;
     column(onset_ + 1) *= -by_noise * scales_.force * weight;
     if (per_cycle) column(onset_ + 2) = -by_noise * scales_.force * rows_.level_weight;
+  }
+
+  /// Fills the derivatives with respect to what makes k differ from cycle to cycle, and turns that with respect to the
+  /// cycle's zeta into that with respect to the shared one. `part_of`: of a column.
+  template <class PartOf>
+  void add_growths(const CycleFrame& frame, const PartOf& part_of) const {
+    for (const Growth& growth : kGrowths) {
+      if (!columns_.has(growth.coordinate)) continue;
+      const double share = cycle_.share_of(growth.coordinate);
+      auto of_damping = part_of(kDamping);
+      part_of(of(growth.coordinate)) = share * (part_of(kLogStiffness) + 0.5 * part_of(kLogFrequency) +
+                                                growth.of_log_damping * frame.zeta * of_damping);
+      of_damping *= std::exp(growth.of_log_damping * (*values_.shared)(growth.coordinate) * share);
+    }
+  }
+
+  /// Returns what k that changes within the sticks adds to the model, per kStiffnessDrift.
+  [[nodiscard]] Eigen::ArrayXd by_curvature(const CycleFrame& frame, double by_noise) const {
+    return by_noise * cycle_.curvature_by_drift(frame.stiffness_N_per_m) * rows_.weight * rows_.path;
   }
 
   [[nodiscard]] Jacobian::RowXpr cleared(Index row) const {
@@ -359,7 +418,7 @@ bool CycleModel::evaluate(const CycleValues& values, double* residuals, double* 
     if (now) std::visit([&](const auto& law) { fill(law, *now, rise, rows); }, now->motion);
     return now.has_value();
   }
-  const Coordinates here = at_speed(*values.shared);
+  const Coordinates here = of_cycle(*values.shared);
   const CycleFrame f = frame(here, values.local);
   const auto motion = SpeedDependentCycle::solve(f.z0(), here, sensor_of(scales_, here), scales_);
   if (motion) fill(*motion, f, rise, rows);
@@ -472,11 +531,27 @@ Eigen::ArrayXXd level_of(const CycleData& data, const LevelModel& level, const S
   return rows;
 }
 
+/// Returns the rows of CycleRows::path.
+Eigen::ArrayXd path_of(const CycleData& data, const StickEnds& ends) {
+  Eigen::ArrayXd rows(static_cast<Eigen::Index>(data.residuals()));
+  const StickBend bend{{}, 1.0, ends};
+  Eigen::Index row = 0;
+  for (const double time_s : data.time_s) rows(row++) = bend.at(time_s);
+  for (const auto* bins : {&data.bins_before, &data.bins_after}) {
+    for (const StickBin& bin : *bins) {
+      const StickBend::Line line = bend.over(bin);
+      rows(row++) = line.mean;
+      rows(row++) = line.slope;
+    }
+  }
+  return rows;
+}
+
 }  // namespace
 
 CycleRows rows_of(const CycleData& cycle) {
   const auto size = static_cast<Eigen::Index>(cycle.residuals());
-  CycleRows rows{Eigen::ArrayXd(size), Eigen::ArrayXd(size), Eigen::ArrayXd(size), {}};
+  CycleRows rows{Eigen::ArrayXd(size), Eigen::ArrayXd(size), Eigen::ArrayXd(size), {}, {}};
   Eigen::Index row = 0;
   for (std::size_t i = 0; i < cycle.time_s.size(); ++i, ++row) {
     rows.force(row) = cycle.force[i];
@@ -513,6 +588,7 @@ CycleSet::CycleSet(std::vector<CycleData> cycles, std::vector<double> reference_
     for (std::size_t i = begin; i < end; ++i) {
       rows_[i] = rows_of(cycles_[i]);
       rows_[i].level = level_of(cycles_[i], level_, scales);
+      rows_[i].path = path_of(cycles_[i], StickEnds(reference_s_[i], scales));
       even_step_s_[i] = even_step_of(cycles_[i].time_s, tolerated_rounding_s(scales));
     }
   });

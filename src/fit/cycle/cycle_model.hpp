@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -60,10 +61,28 @@ struct CycleRows {
   Eigen::ArrayXd weight;        ///< of the residuals, times the noise
   Eigen::ArrayXd level_weight;  ///< of the level's constant, which does not enter slopes: 0 there, else as `weight`
   Eigen::ArrayXXd level;  ///< the level's functions but for the constant, a column each (slopes in rows of slopes)
+  Eigen::ArrayXd path;    ///< StickEnds::square (slopes in rows of slopes); empty in rows_of
 };
 
 /// Returns the rows of a cycle without the level's functions.
 CycleRows rows_of(const CycleData& cycle);
+
+/// Where the sticks around a slip end and begin, about: near enough for how k changes within a stick.
+struct StickEnds {
+  double end_s = 0.0;    ///< of the stick before the slip
+  double begin_s = 0.0;  ///< of the stick after it
+
+  StickEnds(double middle_s, const Scales& scales)
+      : end_s(middle_s - 0.5 * scales.half_period_s), begin_s(middle_s + 0.5 * scales.half_period_s) {}
+
+  /// Time from the stick's end at the slip; 0 within the slip.
+  [[nodiscard]] double from_slip(double time_s) const {
+    return std::min(time_s - end_s, 0.0) + std::max(time_s - begin_s, 0.0);
+  }
+  /// Half of the square of this time: by so much, times k V and the rate of ln k, a stick whose k changes along the
+  /// path differs from a straight one.
+  [[nodiscard]] double square(double time_s) const { return 0.5 * std::pow(from_slip(time_s), 2); }
+};
 
 /// The cycles of a recording as fits use them, at least thresholds::kFewestSlips, with the level's functions at all
 /// their rows. Never changed, and so shared by all fits of the recording.
@@ -159,6 +178,25 @@ struct CycleRise {
   [[nodiscard]] double at(double time_s) const { return force * share.at(time_s).value; }
 };
 
+/// What bends the sticks around one slip: the rise after slips, and k that changes along the path.
+struct StickBend {
+  /// Mean and least-squares slope over a bin.
+  struct Line {
+    double mean = 0.0;
+    double slope = 0.0;
+  };
+
+  std::optional<CycleRise> rise{};
+  double curvature = 0.0;  ///< k V d ln k / dt, N/s^2
+  StickEnds ends;
+
+  /// Returns the force that bent sticks have more than straight ones.
+  [[nodiscard]] double at(double time_s) const {
+    return curvature * ends.square(time_s) + (rise ? rise->at(time_s) : 0.0);
+  }
+  [[nodiscard]] Line over(const StickBin& bin) const;
+};
+
 /// The residuals of one cycle: (data - model) / noise for every sample around the slip, and two for each stick bin (its
 /// mean and its slope, weighted as the samples in it). The model is a friction law (law/) as the sensor shows it
 /// (shown_motion.hpp) above a level. In a sweep one residual more ties F_s of the cycle to the population's, and one
@@ -195,15 +233,27 @@ class CycleModel {
   /// Returns the level without hum. `level` points to the constant, where there is one, and the drift.
   [[nodiscard]] double level_at(double time_s, const double* level, const double* local) const;
   [[nodiscard]] double hum_at(double time_s, const double* level) const;
-  /// Returns the rise after slips; it is empty where sticks are straight.
-  [[nodiscard]] std::optional<CycleRise> rise(const Coordinates& shared) const;
+  /// Returns what bends the sticks, if anything does.
+  [[nodiscard]] StickBend bend(const Coordinates& shared) const;
 
  private:
   class Rows;
 
-  /// Returns the coordinates at the recording's speed: k varies with it, and so does w_n of the same mass.
-  [[nodiscard]] Coordinates at_speed(const Coordinates& shared) const;
-  /// `here`: at the recording's speed.
+  [[nodiscard]] std::optional<CycleRise> rise(const Coordinates& shared) const;
+  /// Returns the place of a time along the path, from -1 to 1.
+  [[nodiscard]] double place_at(double time_s) const {
+    return 2.0 * (time_s - scales_.time_begin_s) / (scales_.time_end_s - scales_.time_begin_s) - 1.0;
+  }
+  /// Returns k V d ln k / dt per kStiffnessDrift, of a cycle with this stiffness.
+  [[nodiscard]] double curvature_by_drift(double stiffness_N_per_m) const {
+    return 2.0 * stiffness_N_per_m * scales_.speed_m_per_s / (scales_.time_end_s - scales_.time_begin_s);
+  }
+  /// Returns the derivative of the cycle's ln k by a coordinate through which it differs from that of other cycles: by
+  /// the speed of the recording, or by the place along its path, from -1 to 1.
+  [[nodiscard]] double share_of(Coordinate coordinate) const;
+  /// Returns the coordinates as they apply to this cycle: w_n follows k as that of the same mass.
+  [[nodiscard]] Coordinates of_cycle(const Coordinates& shared) const;
+  /// `here`: of_cycle.
   [[nodiscard]] CycleFrame frame(const Coordinates& here, const double* local) const;
   [[nodiscard]] std::size_t ties() const { return scales_.population ? 1 + (level_->per_cycle ? 1 : 0) : 0; }
   template <class Law>
@@ -224,7 +274,7 @@ inline double CycleModel::level_at(double time_s, const double* level, const dou
   if (level_->per_cycle) return scales_.level + scales_.force * local[2];
   const double constant = scales_.level_zero() + scales_.level_unit() * level[0];
   if (level_->terms == 1) return constant;
-  const double x = 2.0 * (time_s - scales_.time_begin_s) / (scales_.time_end_s - scales_.time_begin_s) - 1.0;
+  const double x = place_at(time_s);
   // Legendre polynomials by their recurrence
   double sum = 0.0;
   double value = x;

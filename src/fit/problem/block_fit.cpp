@@ -100,6 +100,7 @@ BlockFit BlockFit::with_fewer_cycles(std::size_t most) const {
 void BlockFit::start_at(const Coordinates& start) {
   parameters.values.head<kOfSlip>() = start.head<kOfSlip>();
   parameters.values.segment<2>(kRelaxation) = start.segment<2>(kRelaxation);
+  parameters.values(kStiffnessDrift) = start(kStiffnessDrift);
   if (start(kReloadForce) != 0.0) parameters.values.segment<2>(kReloadForce) = start.segment<2>(kReloadForce);
 }
 

@@ -7,9 +7,11 @@
 
 #include "core/thresholds.hpp"
 #include "fit/cycle/start.hpp"
+#include "fit/inference/covariance.hpp"
 #include "fit/inference/uncertainty.hpp"
 #include "fit/level/hum.hpp"
 #include "fit/level/level_terms.hpp"
+#include "fit/problem/normals.hpp"
 #include "fit/problem/solve.hpp"
 #include "fit/selection/finish.hpp"
 #include "fit/selection/outliers.hpp"
@@ -34,6 +36,15 @@ constexpr int kMaxIterations = 60;
 constexpr double kMuchDamping = 0.2;
 constexpr double kRough = 0.1;  // SolveOptions::tolerance
 constexpr double kFinal = 1e-3;
+
+/// Sum of squares that one linear step by this coordinate gains, all others following.
+double gain_by(Coordinate coordinate, const BlockFit& fit, Held held) {
+  const Problem problem{{&fit, 1}};
+  const std::vector<Normal> normals = normals_of(problem);
+  const double with = newton_step(problem, normals, held).gain;
+  held[coordinate] = true;
+  return with - newton_step(problem, normals, held).gain;
+}
 
 class Fitter {
  public:
@@ -65,6 +76,8 @@ class Fitter {
     }
     const std::size_t excluded = excluded_.size();
     if (fit) fit = with_clean_data(std::move(*fit));
+    if (fit) fit = or_drifting(std::move(*fit));
+    if (fit && scales_.stiffness_drifts) fit = with_clean_data(std::move(*fit));
     if (!fit) return std::nullopt;
     if (excluded_.size() > excluded) fit = or_wandering(*std::move(fit), kFinal);  // outliers may have led there
     if (!fit->level().lines_Hz.empty()) fit = with_hum_in_bins(*std::move(fit), cut());
@@ -146,6 +159,33 @@ class Fitter {
     const LevelModel level{true, 0, fit.level().lines_Hz};
     std::optional<BlockFit> wandering = fit_from(fit.set()->cycles(), level, start_, kMaxIterations, tolerance);
     return wandering && level_wanders(*wandering, fit, held_) ? *std::move(wandering) : std::move(fit);
+  }
+
+  /// The fit with k that changes along the path where it shows that it does. All that follows has it, too.
+  [[nodiscard]] BlockFit or_drifting(BlockFit fit) {
+    if (held_[kLogStiffness]) return fit;
+    std::optional<BlockFit> drifting = with_drift(fit);
+    if (!drifting) return fit;
+    scales_.stiffness_drifts = true;
+    return *std::move(drifting);
+  }
+
+  [[nodiscard]] std::optional<BlockFit> with_drift(const BlockFit& fit) const {
+    Scales scales = fit.scales();
+    scales.stiffness_drifts = true;
+    BlockFit all = fit.with_scales(scales);
+    BlockFit some = all.with_fewer_cycles(kMiddleCycles);
+    if (!(gain_by(kStiffnessDrift, some, held_) > thresholds::kTierPrice * reduced_chi2(some))) return std::nullopt;
+    if (!std::isfinite(solve(some, {held_, false, true, kMiddleIterations, kRough}))) return std::nullopt;
+    const Problem problem{{&some, 1}};
+    const CoordinateMatrix covariance = jackknife_covariance(problem, normals_of(problem), select(some), held_);
+    const double drift = some.parameters.values(kStiffnessDrift);
+    const double least =
+        thresholds::kSureSigmas * std::sqrt(std::max(0.0, covariance(kStiffnessDrift, kStiffnessDrift)));
+    if (!(std::abs(drift) > std::max(thresholds::kNegligible, least))) return std::nullopt;
+    all.start_at(some.parameters.values);
+    return std::isfinite(solve(all, {held_, false, true, kMaxIterations, kRough})) ? std::optional(std::move(all))
+                                                                                   : std::nullopt;
   }
 
   /// Short runs with zeta held, the best of them.

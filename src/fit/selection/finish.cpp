@@ -107,7 +107,8 @@ std::optional<DampedFit> with_uncertainty(DampedFit draft, const Quality& qualit
   if (!is_regular(draft.uncertainty, draft.held)) return std::nullopt;
   const bool is_coulomb = draft.blocks.scales().law == FrictionLaw::Coulomb;  // RampResidual
   const LevelModel& level = draft.blocks.level();
-  if (is_coulomb && !level.per_cycle && !level.reloading && !draft.uncertainty.from_cycles) {
+  if (is_coulomb && !draft.blocks.scales().stiffness_drifts && !level.per_cycle && !level.reloading &&
+      !draft.uncertainty.from_cycles) {
     draft = with_joined_ramps(std::move(draft));
   }
   draft.misfit = find_misfit(draft.blocks, tolerated_misfit(quality));

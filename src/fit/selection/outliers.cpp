@@ -73,11 +73,10 @@ class ResidualsOfCycles {
     const CycleModel& model = fit_.model(cycle);
     const double* const level = fit_.level_data();
     const double* const local = fit_.parameters.cycles[cycle].data();
-    const std::optional<CycleRise> rise = model.rise(fit_.parameters.values);
+    const StickBend bend = model.bend(fit_.parameters.values);
     for (std::size_t i = begin; i < end; ++i) {
       const double t_s = recording_.time_s()[i];
-      result_.value[i] = recording_.force()[i] - (model.level_at(t_s, level, local) + force_at(t_s));
-      if (rise) result_.value[i] -= rise->at(t_s);
+      result_.value[i] = recording_.force()[i] - (model.level_at(t_s, level, local) + force_at(t_s) + bend.at(t_s));
       result_.part[i] = part;
     }
     add_hum(recording_, fit_, begin, end, -1.0, result_.value);

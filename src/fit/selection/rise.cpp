@@ -41,7 +41,7 @@ StickBin merge(const std::vector<StickBin>& bins) {
   return all;
 }
 
-/// Returns the bins of a cycle without hum and without the rise after a slip.
+/// Returns the bins of a cycle without hum and without what bends the sticks in the model.
 std::vector<StickBin> straightened(std::vector<StickBin> bins, const BlockFit& fit, std::size_t cycle) {
   const double* const waves = fit.wave_data();
   for (StickBin& bin : bins) {
@@ -53,12 +53,11 @@ std::vector<StickBin> straightened(std::vector<StickBin> bins, const BlockFit& f
       }
     }
   }
-  const std::optional<CycleRise> rise = fit.model(cycle).rise(fit.parameters.values);
-  if (!rise) return bins;
+  const StickBend bend = fit.model(cycle).bend(fit.parameters.values);
   for (StickBin& bin : bins) {
-    const RiseAfterSlip::Line line = rise->share.over(bin);
-    bin.force -= rise->force * line.mean.value;
-    bin.slope -= rise->force * line.slope.value;
+    const StickBend::Line line = bend.over(bin);
+    bin.force -= line.mean;
+    bin.slope -= line.slope;
   }
   return bins;
 }

@@ -29,6 +29,7 @@ SlidingModel::SlidingModel(const Coordinates& values, const Units& units) {
   if (values(kReloadForce) > 0.0) reload = Reload{units.force * jet(kReloadForce), exp(jet(kReloadLength))};
   if (values(kRelaxation) > 0.0) relaxation = Relaxation{jet(kRelaxation), exp(jet(kRelaxationTime))};
   stiffness_exponent = jet(kStiffnessExponent);
+  if (values(kStiffnessDrift) != 0.0) stiffness_ratio = exp(2.0 * jet(kStiffnessDrift));
   reference_stick_s_ = units.stick_s;
   reference_speed_m_per_s_ = units.speed_m_per_s;
 }

@@ -18,6 +18,7 @@ using Relaxation = model::RelaxationOf<Jet>;
 struct SlidingModel {
   Jet stiffness, omega, zeta, slope, alpha, level, difference, ageing, ageing_time, slip_distance,
       stiffness_exponent;                // k and w_n are those at Units::speed_m_per_s
+  std::optional<Jet> stiffness_ratio;    ///< of k at the end of the path to that at its start; empty: k is constant
   std::optional<Reload> reload;          ///< empty: the force does not rise after slips
   std::optional<Relaxation> relaxation;  ///< empty: the spring does not relax
 

@@ -223,6 +223,7 @@ SweepSolution start_of(const SweepData& data, Sharing sharing, FrictionLaw law) 
     std::copy(level.begin() + skip, level.end(), recording.parameters.level.begin() + 1);
     recording.parameters.level[0] = level_of(single) / scales.population->force;
     recording.parameters.values.segment<4>(kRelaxation) = single.blocks.parameters.values.segment<4>(kRelaxation);
+    recording.parameters.values(kStiffnessDrift) = single.blocks.parameters.values(kStiffnessDrift);
     recording.parameters.values(kDifference) = mean_onset_force(single) / scales.population->force;
     recording.parameters.cycles = single.blocks.parameters.cycles;
     solution.recordings.push_back(std::move(recording));
