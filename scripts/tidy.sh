@@ -26,4 +26,5 @@ if ! configure -DSLIPFIT_PYTHON=ON 2>/dev/null; then
   mapfile -t files < <(printf '%s\n' "${files[@]}" | grep -v '^python/src/' || true)
   [ ${#files[@]} -gt 0 ] || exit 0
 fi
+cmake --build "$commands" --target src/core/remedies.hpp src/report/commit_identity.hpp src/batch/build_identity.hpp >/dev/null
 printf '%s\0' "${files[@]}" | xargs -0 -n 1 -P "$(nproc 2>/dev/null || echo 2)" clang-tidy -p "$commands" --quiet

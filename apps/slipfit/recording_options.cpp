@@ -1,5 +1,7 @@
 #include "recording_options.hpp"
 
+#include <cctype>
+
 #include "failure.hpp"
 
 using slipfit::RecordingOption;
@@ -7,6 +9,21 @@ using slipfit::RecordingOption;
 namespace {
 
 const CLI::Validator kNotEmpty([](const std::string& text) { return text.empty() ? "a value is missing" : ""; }, "");
+
+/// Splits what --speed is given as, such as 10mm/s,20mm/s, at commas behind a unit: others are those of decimals.
+std::vector<std::string> speeds_in(const std::vector<std::string>& said) {
+  std::vector<std::string> speeds;
+  for (const std::string& text : said) {
+    std::size_t begin = 0;
+    for (std::size_t i = 1; i < text.size(); ++i) {
+      if (text[i] != ',' || std::isalpha(static_cast<unsigned char>(text[i - 1])) == 0) continue;
+      speeds.push_back(text.substr(begin, i - begin));
+      begin = i + 1;
+    }
+    speeds.push_back(text.substr(begin));
+  }
+  return speeds;
+}
 
 }  // namespace
 
@@ -17,7 +34,10 @@ void add_options_where(CLI::App& command, RecordingArguments& arguments,
     const std::string names(option.option);
     const std::string help(option.help);
     if (option.column == "speed") {
-      command.add_option(names, arguments.speeds, help)->allow_extra_args(false)->check(kNotEmpty);
+      const auto take = [&arguments](const std::vector<std::string>& said) { arguments.speeds = speeds_in(said); };
+      command.add_option_function<std::vector<std::string>>(names, take, help)
+          ->allow_extra_args(false)
+          ->check(kNotEmpty);
       continue;
     }
     std::string& text = arguments.said[std::string(option.column)];

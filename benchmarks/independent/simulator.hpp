@@ -23,8 +23,8 @@ struct Model {
   double servo_compliance, servo_time;     // m/N, s: the drive gives way under the force and catches up
   double slow_share, slow_time;            // a second relaxing spring beside the first
   double heat_slope, heat_time;  // N/m by which the distance slid lowers the kinetic friction; it cools so fast
-  double line_length;            // m: k is that of a line which the drive shortens (below 0: lengthens) from this length
-  double load_slope;             // the load rises by this share of itself when the force doubles its kinetic level
+  double line_length;  // m: k is that of a line which the drive shortens (below 0: lengthens) from this length
+  double load_slope;   // the load rises by this share of itself when the force doubles its kinetic level
 };
 
 // What changes with time, one value a sample; static friction further takes a factor for each slip.

@@ -111,9 +111,20 @@ Result<std::string> LineFile::line_at(std::uint64_t place) const {
   }
 }
 
+namespace {
+
+fs::path unfinished(const fs::path& file) {
+  return file.parent_path() / fmt::format(".{}.new", file.filename().string());
+}
+
+}  // namespace
+
+void remove_unfinished(const fs::path& file) {
+  (void)::unlink(unfinished(file).c_str());
+}
+
 Replacement::Replacement(const fs::path& file, const fs::path& mode_of)
-    : temporary_(file.parent_path() / fmt::format(".{}.new", file.filename().string())),
-      file_(file, open_new(temporary_, mode_of)) {}
+    : temporary_(unfinished(file)), file_(file, open_new(temporary_, mode_of)) {}
 
 Replacement::~Replacement() {
   if (file_.handle) (void)::unlink(temporary_.c_str());

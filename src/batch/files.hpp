@@ -99,4 +99,7 @@ class Replacement {
 
 void replace_file(const std::filesystem::path& file, std::string_view content);
 
+/// Removes what a process left that was killed while it replaced a file, if it left anything.
+void remove_unfinished(const std::filesystem::path& file);
+
 }  // namespace slipfit::batch

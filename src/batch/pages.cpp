@@ -91,6 +91,10 @@ void write_page(const BatchReport& report, const SlotKey& key, const BatchFit& f
                fmt::format("{}{}{}{}\n", fit.page, mark_of(fit.document), fit.sparkline, kMarkEnd));
 }
 
+void remove_unfinished_page(const BatchReport& report, const SlotKey& key) {
+  remove_unfinished(page_file(report, key));
+}
+
 std::optional<std::string> sparkline_on_page(const BatchReport& report, const SlotKey& key, std::string_view document) {
   const std::string line = last_line_of(page_file(report, key));
   const std::string mark = mark_of(document);

@@ -20,6 +20,9 @@ void prepare_pages(const BatchReport& report);
 /// Writes the page of a recording or group. Errors: as above.
 void write_page(const BatchReport& report, const SlotKey& key, const BatchFit& fit);
 
+/// Removes what a process left that was killed while it wrote this page, if it left anything.
+void remove_unfinished_page(const BatchReport& report, const SlotKey& key);
+
 /// Returns the small trace of a page, or nothing if no page belongs to the document.
 std::optional<std::string> sparkline_on_page(const BatchReport& report, const SlotKey& key, std::string_view document);
 

@@ -6,6 +6,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "batch/pages.hpp"
 #include "slipfit/core/printable.hpp"
 
 namespace slipfit::batch {
@@ -132,7 +133,10 @@ void Run::finish() {
 
 void Run::end() {
   pool_.kill_all();
-  for (const auto& [job, item] : at_work_) log_.add_end(item.key.slot);
+  for (const auto& [job, item] : at_work_) {
+    log_.add_end(item.key.slot);
+    if (options_.report) remove_unfinished_page(*options_.report, item.key);
+  }
   at_work_.clear();
 }
 
@@ -173,6 +177,7 @@ double Run::limit_of(const WorkItem& item) const {
 }
 
 void Run::take(const WorkItem& item, const Answer& answer) {
+  if (answer.end != Answer::End::Replied && options_.report) remove_unfinished_page(*options_.report, item.key);
   if (answer.end == Answer::End::TimedOut) {
     take_failure(
         item,

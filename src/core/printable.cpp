@@ -45,7 +45,8 @@ void append_escape(std::string& text, CodePoint code_point) {
     return;
   }
   if (code_point == '\n' || code_point == '\t' || code_point == '\r') {
-    text += code_point == '\n' ? "\\n" : code_point == '\t' ? "\\t" : "\\r";
+    text += '\\';
+    text += code_point == '\n' ? 'n' : code_point == '\t' ? 't' : 'r';
     return;
   }
   text += "\\u";

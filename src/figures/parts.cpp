@@ -33,6 +33,7 @@ std::string Table::csv() const {
   csv += fmt::format("{}\n", fmt::join(columns_, ","));
   for (const std::vector<double>& row : rows_) {
     std::vector<std::string> cells;
+    cells.reserve(row.size());
     for (const double number : row) cells.push_back(std::isfinite(number) ? fmt::format("{}", number) : "");
     csv += fmt::format("{}\n", fmt::join(cells, ","));
   }

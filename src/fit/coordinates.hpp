@@ -30,10 +30,10 @@ enum Coordinate : Eigen::Index {
   /// Half of the change of ln k from the first to the last cycle: k and w_n are those in the middle of the path.
   kStiffnessDrift,
   kSensorTime,  ///< (time / Scales::sensor_time_unit_s)^2, of the time of the sensor that is free
-  kLevel,              ///< F_k(0+) / Units::force, from Units::level
-  kDifference,         ///< (F_s - F_k(0+)) / Units::force
-  kAgeing,             ///< rate of ageing / Units::force
-  kAgeingTime,         ///< cut-off of ageing / Units::stick_s
+  kLevel,       ///< F_k(0+) / Units::force, from Units::level
+  kDifference,  ///< (F_s - F_k(0+)) / Units::force
+  kAgeing,      ///< rate of ageing / Units::force
+  kAgeingTime,  ///< cut-off of ageing / Units::stick_s
   kCoordinates
 };
 

@@ -146,13 +146,13 @@ std::vector<TableInfo> inspect_each(const std::filesystem::path& path, const std
 
 }  // namespace
 
-Result<FileInfo> inspect_recording(const std::filesystem::path& path, const ReadOptions& options) {
-  const std::string name = name_of_file(path);
+Result<FileInfo> inspect_recording(const std::filesystem::path& file, const ReadOptions& options) {
+  const std::string name = name_of_file(file);
   return with_errors_of_reading(name, [&] {
     check_options(options, name);
-    const Container file = open_container(open_plain(path), name, options);
-    FileInfo info = inspect(file, name, options);
-    (file.choice == &ReadOptions::sheet ? info.sheets : info.variables) = file.tables();
+    const Container container = open_container(open_plain(file), name, options);
+    FileInfo info = inspect(container, name, options);
+    (container.choice == &ReadOptions::sheet ? info.sheets : info.variables) = container.tables();
     return info;
   });
 }

@@ -72,7 +72,7 @@ Score score(const std::vector<std::string_view>& lines, const Dialect& dialect, 
   std::map<std::size_t, double> weight_by_columns;
   std::vector<std::string_view> cells;
   double most = 0.0;
-  double left = static_cast<double>(lines.size());
+  auto left = static_cast<double>(lines.size());
   for (const std::string_view line : lines) {
     split(line, dialect, cells);
     double& weight = weight_by_columns[cells.size()];

@@ -212,9 +212,10 @@ constexpr ManifestField number_field(RecordingOption said, std::string_view suff
 constexpr std::array kFields = std::to_array<ManifestField>({
     text_field({"id"}, set_id, Need::Value),
     text_field({"file"}, set_text_of<&ManifestEntry::file>, Need::Value),
-    number_field({"speed", "--speed", "Driving speed: 0.01 (m/s), 10mm/s, '600 mm/min'; 60rpm with --radius"},
-                 "_m_per_s", Dimension::Speed, Bound::AboveZero, set_number_of<&Conditions::speed_m_per_s>,
-                 Need::Column),
+    number_field(
+        {"speed", "--speed",
+         "Driving speed: 0.01 (m/s), 10mm/s, '600 mm/min'; 10mm/s,20mm/s of two recordings; 60rpm with --radius"},
+        "_m_per_s", Dimension::Speed, Bound::AboveZero, set_number_of<&Conditions::speed_m_per_s>, Need::Column),
     number_field({"speed_se", "--speed-uncertainty", "Standard error of the speed: 0.1mm/s, or a percentage: 1%"},
                  "_m_per_s", Dimension::Speed, Bound::NotNegative,
                  set_number_of<&Conditions::speed_standard_error_m_per_s>),

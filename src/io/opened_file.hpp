@@ -29,7 +29,7 @@ struct OpenedFile {
 
 /// Unpacks the table that the options select and finds its layout; messages show `name`. Errors: those of table_in and
 /// TextSource, no_numeric_column, line_too_long, empty_file.
-OpenedFile open_file(const Container& file, const std::string& name, const ReadOptions& options);
+OpenedFile open_file(const Container& container, const std::string& name, const ReadOptions& options);
 
 /// Reads the rows of the chosen columns. With a window of the options that comes before the steps, what lies outside is
 /// not even kept.

@@ -7,6 +7,14 @@
 using test::check_refused;
 using test::run_slipfit;
 
+TEST_CASE("speeds of several recordings are given with a comma behind each unit, or one by one") {
+  const std::string file = SLIPFIT_TESTDATA_DIR "/demo.csv";
+  const test::ProgramResult listed = run_slipfit({"fit", file, file, "--speed", "10mm/s,20mm/s", "--json"});
+  CHECK(listed.exit_code == 0);
+  CHECK(listed.out == run_slipfit({"fit", file, file, "--speed", "10mm/s", "--speed", "20mm/s", "--json"}).out);
+  CHECK_THAT(listed.out, Catch::Contains("\"speed_m_per_s\": 0.02"));
+}
+
 TEST_CASE("a file in place of a command is fitted, and symbols name parameters") {
   const test::TemporaryFolder folder;
   const std::string file = folder.file("run.csv", test::simulated_csv("5"));

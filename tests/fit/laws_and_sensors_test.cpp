@@ -70,8 +70,8 @@ Coordinates true_values(FrictionLaw law) {
   return values;
 }
 
-/// Cycles whose samples are those of the model at these values.
-BlockFit exact(const Scales& scales, const Coordinates& values) {
+/// Cycles whose samples are those of the model at these values. They come at this distance.
+BlockFit exact(const Scales& scales, const Coordinates& values, double distance_s = 0.0) {
   CycleData cycle;
   for (int i = -12; i < 90; ++i) cycle.time_s.push_back(0.01 * i);
   cycle.force.assign(cycle.time_s.size(), 0.0);
@@ -79,8 +79,17 @@ BlockFit exact(const Scales& scales, const Coordinates& values) {
   cycle.bins_after = {{20.0, 1.4, 0.0, 0.0, 1.2, 0.0, {}}};
   constexpr std::size_t kCount = thresholds::kFewestSlips;
   const LevelModel level{false, 1, {}};
-  const auto fit_of = [&](const std::vector<CycleData>& cycles) {
-    BlockFit fit = BlockFit::create(cycles, std::vector(kCount, 0.0), scales, level).value();
+  std::vector<CycleData> cycles(kCount, cycle);
+  std::vector<double> references_s;
+  for (std::size_t i = 0; i < kCount; ++i) {
+    references_s.push_back(distance_s * static_cast<double>(i));
+    for (double& time_s : cycles[i].time_s) time_s += references_s[i];
+    for (auto* bins : {&cycles[i].bins_before, &cycles[i].bins_after}) {
+      for (StickBin& bin : *bins) bin.time_s += references_s[i];
+    }
+  }
+  const auto fit_of = [&] {
+    BlockFit fit = BlockFit::create(cycles, references_s, scales, level).value();
     fit.start_at(values);
     const double drag = 2.0 * values(kDamping) * kModelStiffness * scales.speed_m_per_s / kModelOmega;
     fit.parameters.values(kDifference) = kOnsetForce + drag;
@@ -89,12 +98,11 @@ BlockFit exact(const Scales& scales, const Coordinates& values) {
     }
     return fit;
   };
-  const BlockFit empty = fit_of(std::vector(kCount, cycle));
-  std::vector<CycleData> cycles(kCount, cycle);
+  const BlockFit empty = fit_of();
   for (std::size_t i = 0; i < kCount; ++i) {
     std::vector<double> residuals(empty.model(i).residuals());
     REQUIRE(empty.model(i).evaluate(empty.values(i), residuals.data(), nullptr));
-    const CycleRows rows = rows_of(cycle);
+    const CycleRows rows = rows_of(cycles[i]);
     const auto force_at = [&](std::size_t row) {
       return -scales.noise * residuals[row] / rows.weight(static_cast<Eigen::Index>(row));
     };
@@ -107,7 +115,7 @@ BlockFit exact(const Scales& scales, const Coordinates& values) {
       }
     }
   }
-  return fit_of(cycles);
+  return fit_of();
 }
 
 BlockFit displaced(BlockFit fit) {
@@ -120,6 +128,7 @@ BlockFit displaced(BlockFit fit) {
     fit.parameters.values(kRelaxationTime) += 0.05;
   }
   if (fit.solves_for(kSlipDistance)) fit.parameters.values(kSlipDistance) += 0.03;
+  if (fit.solves_for(kStiffnessDrift)) fit.parameters.values(kStiffnessDrift) -= 0.03;
   for (Local& local : fit.parameters.cycles) local[1] *= 0.98;
   return fit;
 }
@@ -139,6 +148,26 @@ TEST_CASE("one recording gives back the parameters of every law in closed form b
   CAPTURE(name_of(law), view == ForceView::Spring, instrument.lag_s, instrument.average_s, instrument.order);
   const Coordinates truth = true_values(law);
   BlockFit fit = displaced(exact(scales_of(law, view, instrument, 0.01, false), truth));
+  REQUIRE(std::isfinite(solve(fit, {{}, false, false, 200, 1e-12})));
+  for (const Coordinate coordinate : fit.columns().coordinates()) {
+    CAPTURE(coordinate);
+    CHECK(fit.parameters.values(coordinate) == Approx(truth(coordinate)).margin(1e-6));
+  }
+}
+
+TEST_CASE("a stiffness that changes along the path is found under every law in closed form behind every sensor") {
+  const FrictionLaw law = GENERATE(FrictionLaw::Coulomb, FrictionLaw::Weakening);
+  const ForceView view = GENERATE(ForceView::Spring, ForceView::Transmitted);
+  const Instrument instrument = any_instrument();
+  CAPTURE(name_of(law), view == ForceView::Spring, instrument.lag_s, instrument.average_s, instrument.order);
+  constexpr double kDistance_s = 3.0;
+  Scales scales = scales_of(law, view, instrument, 0.01, false);
+  scales.stiffness_drifts = true;
+  scales.time_begin_s = -1.5;
+  scales.time_end_s = scales.time_begin_s + kDistance_s * static_cast<double>(thresholds::kFewestSlips);
+  Coordinates truth = true_values(law);
+  truth(kStiffnessDrift) = 0.15;
+  BlockFit fit = displaced(exact(scales, truth, kDistance_s));
   REQUIRE(std::isfinite(solve(fit, {{}, false, false, 200, 1e-12})));
   for (const Coordinate coordinate : fit.columns().coordinates()) {
     CAPTURE(coordinate);

@@ -177,7 +177,7 @@ TEST_CASE("the response of a filter is that of its sections in a chain") {
 }
 
 TEST_CASE("a slip that hardly ends, or whose end is no number, does not end the program behind a filter") {
-  const std::size_t order = GENERATE(1, 2, 4);
+  const std::size_t order = GENERATE(as<std::size_t>(), 1, 2, 4);
   const fit::Sensor sensor{0.5, 0.0, order};
   int without_number = 0;
   for (const double zeta : {0.1, 1.0 - 1e-9, 1.0 - 1e-16, -0.5, -0.99997107734733037}) {

@@ -180,7 +180,7 @@ constexpr Ids concerned_by(About about) {
     case About::Sampling:
       return kInSlip;
     case About::Stiffness:
-      return kSpring | kAfterSlip | ids(Id::Mass);
+      return kSpring | kAfterSlip | ids(Id::Mass, Id::StiffnessRatio);
     case About::StiffnessAlone:
       return kSpring;
     case About::Difference:

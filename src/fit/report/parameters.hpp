@@ -45,6 +45,9 @@ inline constexpr const char* kSameWithinSlip =
 inline constexpr const char* kRingDown = "the free ring-down, which was used as data for w_n and zeta";
 inline constexpr const char* kStatedMass = "from the stated mass, because sensor averaging hides w_n";
 
+/// States of which k is the value where it changes along the path.
+inline constexpr const char* kInMiddle = "in the middle of the path, along which k changes";
+
 /// States why the mass is not identified where the force rises after a slip.
 inline constexpr const char* kRiseOfTimeOrDistance =
     "the rise of the force after a slip may be the relaxation of the contact, whose stiffness in the slip is larger: "

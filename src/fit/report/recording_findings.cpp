@@ -434,6 +434,7 @@ Findings findings_of(const Recording& recording, const TierFits& fits, const Res
   findings.cycles = blocks.size();
   findings.samples_per_slip = resolution.samples_per_slip;
   findings.add(About::StiffnessAlone, ParameterStatus::Identified, stiffness.note);
+  if (blocks.solves_for(kStiffnessDrift)) findings.add(About::StiffnessAlone, ParameterStatus::Identified, kInMiddle);
   findings.add(About::Stiffness, ParameterStatus::Weak, stiffness.caveat);
   // Bent sticks begin and end in other slips than the model's.
   if (!stiffness.warnings.empty()) findings.add(About::Slip, ParameterStatus::Weak, stiffness.note);

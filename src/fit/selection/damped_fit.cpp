@@ -42,7 +42,7 @@ double gain_by(Coordinate coordinate, const BlockFit& fit, Held held) {
   const Problem problem{{&fit, 1}};
   const std::vector<Normal> normals = normals_of(problem);
   const double with = newton_step(problem, normals, held).gain;
-  held[coordinate] = true;
+  held[static_cast<std::size_t>(coordinate)] = true;
   return with - newton_step(problem, normals, held).gain;
 }
 

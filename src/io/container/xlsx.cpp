@@ -270,7 +270,7 @@ Container workbook_in(const std::shared_ptr<const ZipArchive>& archive, const st
                                          sheets.size(), wanted ? "" : " (the largest; --sheet selects another)"));
     return stream;
   };
-  return {open, [=] { return names; }};
+  return {open, [=] { return std::vector(names); }};
 }
 
 #else

@@ -186,7 +186,7 @@ Container open_zip(TextStream packed, const std::string& name) {
     }
     return text_of_member(*archive, names[file ? find_named(names, *file, name) : 0]);
   };
-  return {open, [=] { return names; }};
+  return {open, [=] { return std::vector(names); }};
 }
 
 #else

@@ -35,12 +35,12 @@ class JsonNode {
   [[nodiscard]] JsonNode member(const std::string& key) const;
   /// A member of that member, and so on.
   template <class... Keys>
-  [[nodiscard]] JsonNode member(const std::string& key, const Keys&... further) const {
+  [[nodiscard]] JsonNode member(const std::string& key, Keys... further) const {
     return member(key).member(further...);
   }
   /// The member (of that member, and so on), where there is one and it is not null.
   template <class... Keys>
-  [[nodiscard]] std::optional<JsonNode> known(const std::string& key, const Keys&... further) const {
+  [[nodiscard]] std::optional<JsonNode> known(const std::string& key, Keys... further) const {
     if (!has(key) || member(key).is_null()) return std::nullopt;
     if constexpr (sizeof...(further) > 0) return member(key).known(further...);
     return member(key);
@@ -52,7 +52,7 @@ class JsonNode {
                                                const std::string& expected = "a list") const;
   /// Returns the elements of a list that may be absent.
   template <class... Keys>
-  [[nodiscard]] std::vector<JsonNode> elements_of(const Keys&... keys) const {
+  [[nodiscard]] std::vector<JsonNode> elements_of(Keys... keys) const {
     const std::optional<JsonNode> list = known(keys...);
     return list ? list->elements() : std::vector<JsonNode>{};
   }

@@ -193,6 +193,7 @@ Figure pattern_figure(const Source& source) {
   const double per_SI = unit.per_SI;
   Panel coarse = strip("path, coarse pattern (stick-slip)", unit.unit, per_SI * length_m);
   std::vector<double> lengths;
+  lengths.reserve(distances_m.size());
   for (const double distance_m : distances_m) lengths.push_back(per_SI * distance_m);
   add_ridges(coarse, lengths);
   figure.chart = chart::Chart{"Abrasion pattern, to scale", {}, {coarse}};

@@ -98,7 +98,8 @@ struct OverlayPanel {
   }
 
   /// Adds one cycle of a force, shifted to its anchor.
-  void add_cycle(const Recording& recording, std::span<const double> cycle, const Anchor& anchor, chart::Line& line) {
+  void add_cycle(const Recording& recording, std::span<const double> cycle, const Anchor& anchor,
+                 chart::Line& line) const {
     constexpr std::size_t kColumns = 80;
     const double per_second = axis.per_second(recording);
     const SampleRange range =
