@@ -184,7 +184,9 @@ constexpr auto kTerms = std::to_array<TermRow>({
     {"slip_weakening", {Id::SlipDistance, Id::SlipDistance}, "friction that weakens over a slip distance of"},
     {"force_recovery", {Id::ReloadForce, Id::ReloadLength}, "force recovery after a slip of"},
     {"relaxing_spring", {Id::Relaxation, Id::RelaxationTime}, "a spring that relaxes by a share of"},
-    {"stiffness_changes", {Id::StiffnessRatio, Id::StiffnessRatio}, "k that changes along the path by a factor of"},
+    {"stiffness_changes",
+     {Id::StiffnessRatio, Id::StiffnessRatio},
+     "a change of k along the path (k is that in its middle) by a factor of"},
     {"stiffness_goes_with_speed", {Id::StiffnessExponent, Id::StiffnessExponent}, "k proportional to V to the power"},
     {"static_friction_ages", {Id::Ageing, Id::AgeingTime}, "static friction that ages at a rate of"},
 });

@@ -277,6 +277,14 @@ VectorXd rises_of(const SweepSolution& solution) {
   return Eigen::Map<const VectorXd>(rises.data(), static_cast<Index>(rises.size()));
 }
 
+VectorXd drifts_of(const SweepSolution& solution) {
+  std::vector<double> drifts;
+  for (const BlockFit& recording : solution.recordings) {
+    if (recording.solves_for(kStiffnessDrift)) drifts.push_back(recording.parameters.values(kStiffnessDrift));
+  }
+  return Eigen::Map<const VectorXd>(drifts.data(), static_cast<Index>(drifts.size()));
+}
+
 AgeingLine ageing_line(const SweepSolution& solution, const AgeingCutoff& cutoff) {
   const LinesOverSticks lines(solution);
   const LinesOverSticks::Line best = lines.with(cutoff.value);

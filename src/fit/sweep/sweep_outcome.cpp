@@ -76,10 +76,13 @@ Selection selection_of(const SweepSolution& solution, const AgeingLine& line) {
     selection.common(column, kAgeing) = line.rate_weights(r);
   }
   const auto rises = static_cast<double>(rises_of(solution).size());
+  const auto drifts = static_cast<double>(drifts_of(solution).size());
   for (std::size_t r = 0; r < solution.recordings.size(); ++r) {
     const std::optional<Index> rise = columns.find(r, kReloadForce);
     const double unit = solution.recordings[r].scales().force / solution.population(r).force;
     if (rise) selection.common(*rise, kReloadForce) = unit / rises;
+    const std::optional<Index> drift = columns.find(r, kStiffnessDrift);
+    if (drift) selection.common(*drift, kStiffnessDrift) = 1.0 / drifts;
   }
   return selection;
 }
@@ -105,6 +108,7 @@ Coordinates coordinates_of(const SweepSolution& solution, const StaticFriction& 
   values(kAgeing) = line.rate_weights.dot(differences);
   values(kAgeingTime) = kind ? kind->value : 0.0;
   if (const VectorXd rises = rises_of(solution); rises.size() > 0) values(kReloadForce) = rises.mean();
+  if (const VectorXd drifts = drifts_of(solution); drifts.size() > 0) values(kStiffnessDrift) = drifts.mean();
   return values;
 }
 
@@ -126,6 +130,7 @@ Spread spread_of(const SweepData& data, const SweepSolution& solution, const std
   }
   spread.covariance(kLevel, kLevel) += variance_of_mean(levels_of(solution));
   spread.covariance(kReloadForce, kReloadForce) += variance_of_mean(rises_of(solution));
+  spread.covariance(kStiffnessDrift, kStiffnessDrift) += variance_of_mean(drifts_of(solution));
   // Recordings whose cycles are those of the model, and that lie on the line within their own errors, count as the
   // cycles do; otherwise they scatter, and they count.
   if (!(kind && line.explains && !correlated)) add_scatter(spread, solution, line, kind);
