@@ -15,6 +15,7 @@
 #include "fit/problem/solve.hpp"
 #include "fit/selection/finish.hpp"
 #include "fit/selection/outliers.hpp"
+#include "fit/selection/rise.hpp"
 #include "fit/selection/tiers.hpp"
 #include "signal/smoothing.hpp"
 
@@ -44,6 +45,19 @@ double gain_by(Coordinate coordinate, const BlockFit& fit, Held held) {
   const double with = newton_step(problem, normals, held).gain;
   held[static_cast<std::size_t>(coordinate)] = true;
   return with - newton_step(problem, normals, held).gain;
+}
+
+/// Half of the range over the cycles of the level's slope over that of the sticks. A level that belongs to friction is
+/// not in the sticks: as part of the model it then makes k look as if it changed by this.
+double change_by_level(const BlockFit& fit) {
+  double least = std::numeric_limits<double>::infinity();
+  double most = -least;
+  for (std::size_t i = 0; i < fit.size(); ++i) {
+    const double slope = level_slope(fit, i, fit.reference_s(i));
+    least = std::min(least, slope);
+    most = std::max(most, slope);
+  }
+  return 0.5 * (most - least) / (std::exp(fit.parameters.values(kLogStiffness)) * fit.scales().speed_m_per_s);
 }
 
 class Fitter {
@@ -170,6 +184,8 @@ class Fitter {
     return *std::move(drifting);
   }
 
+  /// Empty where a linear step gains too little, or the change is within what its error, or a level that is no drift of
+  /// the sensor, explains. docs/model.md (26a)
   [[nodiscard]] std::optional<BlockFit> with_drift(const BlockFit& fit) const {
     Scales scales = fit.scales();
     scales.stiffness_drifts = true;
@@ -180,12 +196,12 @@ class Fitter {
     const Problem problem{{&some, 1}};
     const CoordinateMatrix covariance = jackknife_covariance(problem, normals_of(problem), select(some), held_);
     const double drift = some.parameters.values(kStiffnessDrift);
-    const double least =
-        thresholds::kSureSigmas * std::sqrt(std::max(0.0, covariance(kStiffnessDrift, kStiffnessDrift)));
-    if (!(std::abs(drift) > std::max(thresholds::kNegligible, least))) return std::nullopt;
+    const double error = std::sqrt(std::max(0.0, covariance(kStiffnessDrift, kStiffnessDrift)));
+    const double least = std::max(thresholds::kNegligible, thresholds::kSureSigmas * error) + change_by_level(some);
+    if (!(std::abs(drift) > least)) return std::nullopt;
     all.start_at(some.parameters.values);
-    return std::isfinite(solve(all, {held_, false, true, kMaxIterations, kRough})) ? std::optional(std::move(all))
-                                                                                   : std::nullopt;
+    if (!std::isfinite(solve(all, {held_, false, true, kMaxIterations, kRough}))) return std::nullopt;
+    return all;
   }
 
   /// Short runs with zeta held, the best of them.

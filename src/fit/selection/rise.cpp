@@ -14,6 +14,13 @@
 
 namespace slipfit::fit {
 
+double level_slope(const BlockFit& fit, std::size_t cycle, double time_s) {
+  const double step_s = fit.scales().half_period_s;
+  const double* local = fit.parameters.cycles[cycle].data();
+  const auto level = [&](double t_s) { return fit.model(cycle).level_at(t_s, fit.level_data(), local); };
+  return (level(time_s + step_s) - level(time_s - step_s)) / (2.0 * step_s);
+}
+
 namespace {
 
 /// Merges centred sums (parallel axis rule): the same as reducing all samples at once.
@@ -60,14 +67,6 @@ std::vector<StickBin> straightened(std::vector<StickBin> bins, const BlockFit& f
     bin.slope -= line.slope;
   }
   return bins;
-}
-
-/// A drift that itself bends would make a ramp steeper than the one before it.
-double level_slope(const BlockFit& fit, std::size_t cycle, double time_s) {
-  const double step_s = fit.scales().half_period_s;
-  const double* local = fit.parameters.cycles[cycle].data();
-  const auto level = [&](double t_s) { return fit.model(cycle).level_at(t_s, fit.level_data(), local); };
-  return (level(time_s + step_s) - level(time_s - step_s)) / (2.0 * step_s);
 }
 
 /// Two parts of a stick, the earlier first, without hum and without the rise after a slip.
@@ -152,7 +151,8 @@ std::optional<RampDrift> drift_in_ramps(const BlockFit& fit) {
     const auto mean = [&](double of_late, double of_early) {
       return (late.time_spread * of_late + early.time_spread * of_early) / weight.back();
     };
-    measured.push_back(mean(late.slope, early.slope));
+    const CycleState state = fit.state(i);
+    measured.push_back(mean(late.slope, early.slope) - state.force_scale * state.omega_rad_per_s);
     level.push_back(mean(level_slope(fit, i, late.time_s), level_slope(fit, i, early.time_s)));
   }
   if (measured.size() < 5) return std::nullopt;

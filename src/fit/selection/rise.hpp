@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -7,6 +8,9 @@
 #include "fit/selection/solution.hpp"
 
 namespace slipfit::fit {
+
+/// Slope of the level at a time of a cycle. A drift that itself bends makes a ramp steeper than the one before it.
+double level_slope(const BlockFit& fit, std::size_t cycle, double time_s);
 
 /// Says how much steeper a ramp begins (after a slip) than it ends (before the next): ln of the ratio of the slopes,
 /// with the standard error over cycles, longer where they are few: chance exceeds kClearSigmas of it in 0.3 %. It is 0
