@@ -67,7 +67,7 @@ struct CycleRows {
 /// Returns the rows of a cycle without the level's functions.
 CycleRows rows_of(const CycleData& cycle);
 
-/// Where the sticks around a slip end and begin, about: near enough for how k changes within a stick.
+/// Says about where the sticks around a slip end and begin, near enough for how k changes within a stick.
 struct StickEnds {
   double end_s = 0.0;    ///< of the stick before the slip
   double begin_s = 0.0;  ///< of the stick after it
@@ -75,12 +75,12 @@ struct StickEnds {
   StickEnds(double middle_s, const Scales& scales)
       : end_s(middle_s - 0.5 * scales.half_period_s), begin_s(middle_s + 0.5 * scales.half_period_s) {}
 
-  /// Time from the stick's end at the slip; 0 within the slip.
+  /// Returns the time from the end of the stick that is at the slip; it is 0 within the slip.
   [[nodiscard]] double from_slip(double time_s) const {
     return std::min(time_s - end_s, 0.0) + std::max(time_s - begin_s, 0.0);
   }
-  /// Half of the square of this time: by so much, times k V and the rate of ln k, a stick whose k changes along the
-  /// path differs from a straight one.
+  /// Returns half of the square of this time. A stick whose k changes along the path differs from a straight one by
+  /// this times k V and the rate of ln k.
   [[nodiscard]] double square(double time_s) const { return 0.5 * std::pow(from_slip(time_s), 2); }
 };
 
@@ -178,9 +178,9 @@ struct CycleRise {
   [[nodiscard]] double at(double time_s) const { return force * share.at(time_s).value; }
 };
 
-/// What bends the sticks around one slip: the rise after slips, and k that changes along the path.
+/// Holds what bends the sticks around one slip: the rise after slips, and k that changes along the path.
 struct StickBend {
-  /// Mean and least-squares slope over a bin.
+  /// Holds mean and least-squares slope over a bin.
   struct Line {
     double mean = 0.0;
     double slope = 0.0;

@@ -45,7 +45,7 @@ inline constexpr const char* kSameWithinSlip =
 inline constexpr const char* kRingDown = "the free ring-down, which was used as data for w_n and zeta";
 inline constexpr const char* kStatedMass = "from the stated mass, because sensor averaging hides w_n";
 
-/// States of which k is the value where it changes along the path.
+/// States where on the path k has its value, if it changes.
 inline constexpr const char* kInMiddle = "in the middle of the path, along which k changes";
 
 /// States why the mass is not identified where the force rises after a slip.

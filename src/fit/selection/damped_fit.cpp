@@ -38,7 +38,7 @@ constexpr double kMuchDamping = 0.2;
 constexpr double kRough = 0.1;  // SolveOptions::tolerance
 constexpr double kFinal = 1e-3;
 
-/// Sum of squares that one linear step by this coordinate gains, all others following.
+/// Returns the sum of squares that one linear step by this coordinate gains where all others follow.
 double gain_by(Coordinate coordinate, const BlockFit& fit, Held held) {
   const Problem problem{{&fit, 1}};
   const std::vector<Normal> normals = normals_of(problem);
@@ -47,8 +47,8 @@ double gain_by(Coordinate coordinate, const BlockFit& fit, Held held) {
   return with - newton_step(problem, normals, held).gain;
 }
 
-/// Half of the range over the cycles of the level's slope over that of the sticks. A level that belongs to friction is
-/// not in the sticks: as part of the model it then makes k look as if it changed by this.
+/// Returns by how much ln k seems to change, either way from its mean, because the level changes more quickly in some
+/// cycles than in others: a level that belongs to friction is not in the sticks, though the model has it there.
 double change_by_level(const BlockFit& fit) {
   double least = std::numeric_limits<double>::infinity();
   double most = -least;
@@ -175,7 +175,7 @@ class Fitter {
     return wandering && level_wanders(*wandering, fit, held_) ? *std::move(wandering) : std::move(fit);
   }
 
-  /// The fit with k that changes along the path where it shows that it does. All that follows has it, too.
+  /// Returns the fit with k that changes along the path if it shows that k does. All later fits have this, too.
   [[nodiscard]] BlockFit or_drifting(BlockFit fit) {
     if (held_[kLogStiffness]) return fit;
     std::optional<BlockFit> drifting = with_drift(fit);
@@ -184,8 +184,8 @@ class Fitter {
     return *std::move(drifting);
   }
 
-  /// Empty where a linear step gains too little, or the change is within what its error, or a level that is no drift of
-  /// the sensor, explains. docs/model.md (26a)
+  /// Returns the fit with k that changes along the path. The result is empty where a linear step gains too little, or
+  /// where errors or a level that belongs to friction explain the change. docs/model.md (26a)
   [[nodiscard]] std::optional<BlockFit> with_drift(const BlockFit& fit) const {
     Scales scales = fit.scales();
     scales.stiffness_drifts = true;

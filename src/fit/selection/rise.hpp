@@ -9,7 +9,7 @@
 
 namespace slipfit::fit {
 
-/// Slope of the level at a time of a cycle. A drift that itself bends makes a ramp steeper than the one before it.
+/// Returns the slope of the level at a time of a cycle. A drift that bends makes a ramp steeper than the one before it.
 double level_slope(const BlockFit& fit, std::size_t cycle, double time_s);
 
 /// Says how much steeper a ramp begins (after a slip) than it ends (before the next): ln of the ratio of the slopes,

@@ -63,7 +63,7 @@ Eigen::VectorXd differences_of(const SweepSolution& solution);
 /// A / Units::force, at the reference load, of the recordings whose sticks rise more steeply after a slip.
 Eigen::VectorXd rises_of(const SweepSolution& solution);
 
-/// kStiffnessDrift of the recordings whose stiffness changes along the path.
+/// Returns kStiffnessDrift of the recordings whose stiffness changes along the path.
 Eigen::VectorXd drifts_of(const SweepSolution& solution);
 
 /// F_s - F_k(0+) = D + rate ln((stick + t_c) / (Units::stick_s + t_c)) through the recordings' own values. At one speed
