@@ -446,8 +446,8 @@ inline constexpr double kWidestFactor = 2.0;
 // ## Status of a parameter
 
 /// Fewest samples of a slip whose shape identifies a parameter, and which an average over one of them moves in
-/// proportion to its square. [count; calibrated: at 3 samples that are averaged over a step of the clock, intervals of
-/// w_n fail; at 4 they hold]
+/// proportion to its square; and of the length over which the force rises after a slip. [count; calibrated: at 3
+/// samples that are averaged over a step of the clock, intervals of w_n fail; at 4 they hold]
 inline constexpr double kSlipSamples = 3.5;
 
 /// Relative standard error, above which a bound says more than an interval, and 0 is not excluded. [1; derived: 3

@@ -234,7 +234,7 @@ std::optional<DampedFit> settle_rise(const FitInput& input, std::optional<Damped
   const double step_m = fit->blocks.scales().speed_m_per_s * input.recording.sample_interval_s();
   for (int round = 0; fit && round < kMostRounds; ++round) {
     const double before_m = rise_length_m(*fit);
-    if (!rises(fit->blocks) || !(before_m >= thresholds::kShapeSamples * step_m)) return std::nullopt;
+    if (!rises(fit->blocks) || !(before_m >= thresholds::kSlipSamples * step_m)) return std::nullopt;
     fit = with_free_length(input.quality, *std::move(fit));
     if (!fit) return fit;
     const double change = std::abs(std::log(rise_length_m(*fit) / before_m));
