@@ -25,6 +25,11 @@ fs::path folder_of(const fs::path& file) {
   return file.has_parent_path() ? file.parent_path() : ".";
 }
 
+/// Returns the name under which a file is written before it replaces another one.
+fs::path unfinished(const fs::path& file) {
+  return file.parent_path() / fmt::format(".{}.new", file.filename().string());
+}
+
 /// Opens a new file and removes one of this name, which a killed process may have left. The new file gets the
 /// permissions of the file `mode_of` where that exists, otherwise the usual ones. Returns -1 with errno on failure.
 int open_new(const fs::path& file, const fs::path& mode_of) {
@@ -110,14 +115,6 @@ Result<std::string> LineFile::line_at(std::uint64_t place) const {
     if (end != std::string_view::npos) return line;
   }
 }
-
-namespace {
-
-fs::path unfinished(const fs::path& file) {
-  return file.parent_path() / fmt::format(".{}.new", file.filename().string());
-}
-
-}  // namespace
 
 void remove_unfinished(const fs::path& file) {
   (void)::unlink(unfinished(file).c_str());

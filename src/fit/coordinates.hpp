@@ -39,8 +39,8 @@ enum Coordinate : Eigen::Index {
 
 using Coordinates = Eigen::Matrix<double, kCoordinates, 1>;
 using CoordinateMatrix = Eigen::Matrix<double, kCoordinates, kCoordinates>;
-/// What each recording of a sweep has for itself: it may share F_s - F_k(0+); A goes with the load, and where along a
-/// path k changes is the recording's. All else belongs to the contact and the rig.
+/// Returns whether each recording of a sweep has its own value. F_s - F_k(0+) may be shared, A is proportional to the
+/// load, and k changes along the path of each recording. All other coordinates belong to the contact and the rig.
 constexpr bool is_of_recording(Coordinate coordinate) {
   return coordinate == kDifference || coordinate == kReloadForce || coordinate == kStiffnessDrift;
 }

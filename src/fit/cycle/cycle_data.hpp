@@ -98,6 +98,10 @@ struct Scales {
   std::optional<RelaxingCycles> relaxing{};  ///< the spring relaxes (docs/model.md section 10); empty: it does not
   std::optional<Population> population{};    ///< of a sweep
 
+  /// Returns the place of a time along the path of the cycles, from -1 to 1.
+  [[nodiscard]] double place_at(double time_s) const {
+    return 2.0 * (time_s - time_begin_s) / (time_end_s - time_begin_s) - 1.0;
+  }
   /// Force at which the level's constant counts 0, and its unit.
   [[nodiscard]] double level_zero() const { return population ? 0.0 : level; }
   [[nodiscard]] double level_unit() const { return population ? population->force : force; }

@@ -69,7 +69,7 @@ CycleModel::CycleModel(const CycleSet& set, std::size_t cycle, const Scales& sca
 
 double CycleModel::share_of(Coordinate coordinate) const {
   if (coordinate == kStiffnessExponent) return *scales_.population->log_speed;
-  return place_at(reference_s_);
+  return scales_.place_at(reference_s_);
 }
 
 Coordinates CycleModel::of_cycle(const Coordinates& shared) const {
@@ -137,6 +137,25 @@ std::optional<CycleState> CycleModel::state(const Coordinates& shared, const dou
   if (!(motion.tau_end() < CoulombWave::kLongest)) return std::nullopt;
   return CycleState{f, std::move(motion)};
 }
+
+namespace {
+
+/// Returns, for every residual row, what sticks that bend have more than straight ones.
+Eigen::ArrayXd rows_of(const StickBend& bend, const CycleData& data) {
+  Eigen::ArrayXd rows(static_cast<Eigen::Index>(data.residuals()));
+  Eigen::Index row = 0;
+  for (const double time_s : data.time_s) rows(row++) = bend.at(time_s);
+  for (const auto* bins : {&data.bins_before, &data.bins_after}) {
+    for (const StickBin& bin : *bins) {
+      const StickBend::Line line = bend.over(bin);
+      rows(row++) = line.mean;
+      rows(row++) = line.slope;
+    }
+  }
+  return rows;
+}
+
+}  // namespace
 
 /// Forms residuals and their Jacobian column by column, as the processor's vectors do it several rows at a time. The
 /// rows first store the ingredients of a column in the place of that column.
@@ -213,11 +232,12 @@ class CycleModel::Rows {
     const double by_noise = 1.0 / scales_.noise;
     const double u = frame.force_scale;
     const Column z(residuals_, rows_.force.size());
-    if (jacobian_ != nullptr) differentiate(frame, z, by_noise);
+    const Eigen::ArrayXd bend = columns_.has(kStiffnessDrift) ? by_drift(frame, by_noise) : Eigen::ArrayXd();
+    if (jacobian_ != nullptr) differentiate(frame, z, by_noise, bend);
     Column(residuals_, z.size()) =
         by_noise * (rows_.weight * (rows_.force - u * z) - constant_force() * rows_.level_weight);
     if (columns_.has(kStiffnessDrift)) {
-      Column(residuals_, z.size()) -= (*values_.shared)(kStiffnessDrift)*by_curvature(frame, by_noise);
+      Column(residuals_, z.size()) -= (*values_.shared)(kStiffnessDrift)*bend;
     }
     for (Index i = 0; i < rows_.level.cols(); ++i) {
       Column(residuals_, z.size()) -= by_noise * scales_.force * values_.drift[i] * rows_.weight * rows_.level.col(i);
@@ -291,21 +311,22 @@ class CycleModel::Rows {
                                     : scales_.level_zero() + scales_.level_unit() * *values_.constant;
   }
 
-  void differentiate(const CycleFrame& frame, const Column& z, double by_noise) const {
+  /// `bend`: by_drift, where the fit solves for it.
+  void differentiate(const CycleFrame& frame, const Column& z, double by_noise, const Eigen::ArrayXd& bend) const {
     const Eigen::ArrayXd& weight = rows_.weight;
     const bool per_cycle = cycle_.level_->per_cycle;
     const double scaled = -by_noise * frame.force_scale;
     column(kLogStiffness) = scaled * weight * (z - frame.z0() * column(onset_ + 1));  // at a fixed tau
     column(kLogFrequency) = scaled * weight * column(kLogFrequency) - column(kLogStiffness);
     if (columns_.has(kStiffnessDrift)) {
-      column(kLogStiffness) -= (*values_.shared)(kStiffnessDrift)*by_curvature(frame, by_noise);
+      column(kLogStiffness) -= (*values_.shared)(kStiffnessDrift)*bend;
     }
     for (const Coordinate of_law :
          {kDamping, kFrictionSlope, kFrictionRate, kSlipDistance, kRelaxation, kRelaxationTime}) {
       if (columns_.has(of_law)) column(of(of_law)) *= scaled * weight;
     }
     add_growths(frame, [this](Index i) { return column(i); });
-    if (columns_.has(kStiffnessDrift)) column(of(kStiffnessDrift)) -= by_curvature(frame, by_noise);
+    if (columns_.has(kStiffnessDrift)) column(of(kStiffnessDrift)) -= bend;
     if (columns_.has(kSensorTime)) column(of(kSensorTime)) *= 0.5 / (*values_.shared)(kSensorTime)*scaled * weight;
     if (columns_.has(kDifference)) column(of(kDifference)).setZero();
     if (columns_.has_constant() && per_cycle) column(constant()).setZero();
@@ -335,8 +356,10 @@ class CycleModel::Rows {
   }
 
   /// Returns what k that changes within the sticks adds to the model, per kStiffnessDrift.
-  [[nodiscard]] Eigen::ArrayXd by_curvature(const CycleFrame& frame, double by_noise) const {
-    return by_noise * cycle_.curvature_by_drift(frame.stiffness_N_per_m) * rows_.weight * rows_.path;
+  [[nodiscard]] Eigen::ArrayXd by_drift(const CycleFrame& frame, double by_noise) const {
+    const StickBend bend{
+        {}, cycle_.curvature_by_drift(frame.stiffness_N_per_m), StickEnds(cycle_.reference_s_, scales_)};
+    return by_noise * rows_.weight * rows_of(bend, cycle_.data());
   }
 
   [[nodiscard]] Jacobian::RowXpr cleared(Index row) const {
@@ -531,27 +554,11 @@ Eigen::ArrayXXd level_of(const CycleData& data, const LevelModel& level, const S
   return rows;
 }
 
-/// Returns the rows of CycleRows::path.
-Eigen::ArrayXd path_of(const CycleData& data, const StickEnds& ends) {
-  Eigen::ArrayXd rows(static_cast<Eigen::Index>(data.residuals()));
-  const StickBend bend{{}, 1.0, ends};
-  Eigen::Index row = 0;
-  for (const double time_s : data.time_s) rows(row++) = bend.at(time_s);
-  for (const auto* bins : {&data.bins_before, &data.bins_after}) {
-    for (const StickBin& bin : *bins) {
-      const StickBend::Line line = bend.over(bin);
-      rows(row++) = line.mean;
-      rows(row++) = line.slope;
-    }
-  }
-  return rows;
-}
-
 }  // namespace
 
 CycleRows rows_of(const CycleData& cycle) {
   const auto size = static_cast<Eigen::Index>(cycle.residuals());
-  CycleRows rows{Eigen::ArrayXd(size), Eigen::ArrayXd(size), Eigen::ArrayXd(size), {}, {}};
+  CycleRows rows{Eigen::ArrayXd(size), Eigen::ArrayXd(size), Eigen::ArrayXd(size), {}};
   Eigen::Index row = 0;
   for (std::size_t i = 0; i < cycle.time_s.size(); ++i, ++row) {
     rows.force(row) = cycle.force[i];
@@ -588,7 +595,6 @@ CycleSet::CycleSet(std::vector<CycleData> cycles, std::vector<double> reference_
     for (std::size_t i = begin; i < end; ++i) {
       rows_[i] = rows_of(cycles_[i]);
       rows_[i].level = level_of(cycles_[i], level_, scales);
-      rows_[i].path = path_of(cycles_[i], StickEnds(reference_s_[i], scales));
       even_step_s_[i] = even_step_of(cycles_[i].time_s, tolerated_rounding_s(scales));
     }
   });

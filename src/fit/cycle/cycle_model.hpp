@@ -61,28 +61,10 @@ struct CycleRows {
   Eigen::ArrayXd weight;        ///< of the residuals, times the noise
   Eigen::ArrayXd level_weight;  ///< of the level's constant, which does not enter slopes: 0 there, else as `weight`
   Eigen::ArrayXXd level;  ///< the level's functions but for the constant, a column each (slopes in rows of slopes)
-  Eigen::ArrayXd path;    ///< StickEnds::square (slopes in rows of slopes); empty in rows_of
 };
 
 /// Returns the rows of a cycle without the level's functions.
 CycleRows rows_of(const CycleData& cycle);
-
-/// Says about where the sticks around a slip end and begin, near enough for how k changes within a stick.
-struct StickEnds {
-  double end_s = 0.0;    ///< of the stick before the slip
-  double begin_s = 0.0;  ///< of the stick after it
-
-  StickEnds(double middle_s, const Scales& scales)
-      : end_s(middle_s - 0.5 * scales.half_period_s), begin_s(middle_s + 0.5 * scales.half_period_s) {}
-
-  /// Returns the time from the end of the stick that is at the slip; it is 0 within the slip.
-  [[nodiscard]] double from_slip(double time_s) const {
-    return std::min(time_s - end_s, 0.0) + std::max(time_s - begin_s, 0.0);
-  }
-  /// Returns half of the square of this time. A stick whose k changes along the path differs from a straight one by
-  /// this times k V and the rate of ln k.
-  [[nodiscard]] double square(double time_s) const { return 0.5 * std::pow(from_slip(time_s), 2); }
-};
 
 /// The cycles of a recording as fits use them, at least thresholds::kFewestSlips, with the level's functions at all
 /// their rows. Never changed, and so shared by all fits of the recording.
@@ -178,6 +160,21 @@ struct CycleRise {
   [[nodiscard]] double at(double time_s) const { return force * share.at(time_s).value; }
 };
 
+/// Holds the times at which the sticks around a slip end and begin. They follow from the middle of the slip, which is
+/// exact enough for how k changes within a stick.
+struct StickEnds {
+  double end_s = 0.0;    ///< of the stick before the slip
+  double begin_s = 0.0;  ///< of the stick after it
+
+  StickEnds(double middle_s, const Scales& scales)
+      : end_s(middle_s - 0.5 * scales.half_period_s), begin_s(middle_s + 0.5 * scales.half_period_s) {}
+
+  /// Returns the time from the end of the stick that is at the slip; it is 0 within the slip.
+  [[nodiscard]] double from_slip(double time_s) const {
+    return std::min(time_s - end_s, 0.0) + std::max(time_s - begin_s, 0.0);
+  }
+};
+
 /// Holds what bends the sticks around one slip: the rise after slips, and k that changes along the path.
 struct StickBend {
   /// Holds mean and least-squares slope over a bin.
@@ -192,7 +189,7 @@ struct StickBend {
 
   /// Returns the force that bent sticks have more than straight ones.
   [[nodiscard]] double at(double time_s) const {
-    return curvature * ends.square(time_s) + (rise ? rise->at(time_s) : 0.0);
+    return 0.5 * curvature * std::pow(ends.from_slip(time_s), 2) + (rise ? rise->at(time_s) : 0.0);
   }
   [[nodiscard]] Line over(const StickBin& bin) const;
 };
@@ -240,10 +237,6 @@ class CycleModel {
   class Rows;
 
   [[nodiscard]] std::optional<CycleRise> rise(const Coordinates& shared) const;
-  /// Returns the place of a time along the path, from -1 to 1.
-  [[nodiscard]] double place_at(double time_s) const {
-    return 2.0 * (time_s - scales_.time_begin_s) / (scales_.time_end_s - scales_.time_begin_s) - 1.0;
-  }
   /// Returns k V d ln k / dt per kStiffnessDrift, of a cycle with this stiffness.
   [[nodiscard]] double curvature_by_drift(double stiffness_N_per_m) const {
     return 2.0 * stiffness_N_per_m * scales_.speed_m_per_s / (scales_.time_end_s - scales_.time_begin_s);
@@ -274,7 +267,7 @@ inline double CycleModel::level_at(double time_s, const double* level, const dou
   if (level_->per_cycle) return scales_.level + scales_.force * local[2];
   const double constant = scales_.level_zero() + scales_.level_unit() * level[0];
   if (level_->terms == 1) return constant;
-  const double x = place_at(time_s);
+  const double x = scales_.place_at(time_s);
   // Legendre polynomials by their recurrence
   double sum = 0.0;
   double value = x;

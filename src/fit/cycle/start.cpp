@@ -34,8 +34,7 @@ std::vector<double> level_through(const BlockFit& fit, const std::vector<double>
   std::vector<double> values(terms);
   std::vector<double> slopes(terms);
   for (std::size_t i = 0; i < times_s.size(); ++i) {
-    const double x = 2.0 * (times_s[i] - scales.time_begin_s) / (scales.time_end_s - scales.time_begin_s) - 1.0;
-    legendre(x, terms, values.data(), slopes.data());
+    legendre(scales.place_at(times_s[i]), terms, values.data(), slopes.data());
     const auto row = static_cast<Eigen::Index>(i);
     for (std::size_t j = 0; j < terms; ++j) basis(row, static_cast<Eigen::Index>(j)) = values[j];
     target(row) = (levels[i] - scales.level) / scales.force;

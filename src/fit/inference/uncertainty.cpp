@@ -155,9 +155,7 @@ Selection select(const BlockFit& fit) {
   std::vector<double> values(fit.level().terms);
   std::vector<double> slopes(fit.level().terms);
   for (std::size_t cycle = 0; cycle < fit.size(); ++cycle) {
-    const double x =
-        2.0 * (fit.reference_s(cycle) - scales.time_begin_s) / (scales.time_end_s - scales.time_begin_s) - 1.0;
-    legendre(x, fit.level().terms, values.data(), slopes.data());
+    legendre(scales.place_at(fit.reference_s(cycle)), fit.level().terms, values.data(), slopes.data());
     for (std::size_t i = 0; i < values.size(); ++i) {
       selection.common(columns.level(0) + static_cast<Index>(i), kLevel) += values[i] / static_cast<double>(fit.size());
     }

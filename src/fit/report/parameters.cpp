@@ -236,6 +236,9 @@ class Reporter {
   void report() {
     result_.level_trend = f_.level_trend;
     report_stiffness();
+    if (model_.stiffness_ratio) {
+      add_graded(Id::StiffnessRatio, f_.intervals.interval_of_one_sign(*model_.stiffness_ratio));
+    }
     report_friction();
     report_dynamics();
     if (f_.law) report_law();
@@ -333,8 +336,6 @@ class Reporter {
     } else {
       add_graded(Id::Stiffness, f_.intervals.interval_of_one_sign(model_.stiffness));
     }
-    if (model_.stiffness_ratio)
-      add_graded(Id::StiffnessRatio, f_.intervals.interval_of_one_sign(*model_.stiffness_ratio));
     if (!f_.law || !f_.law->stiffness_grows) return;
     result_.parameters.back().estimate.note += fmt::format(
         "{}at {:.4g} m/s", result_.parameters.back().estimate.note.empty() ? "" : "; ", f_.units.speed_m_per_s);

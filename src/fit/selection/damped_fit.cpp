@@ -90,9 +90,12 @@ class Fitter {
     }
     const std::size_t excluded = excluded_.size();
     if (fit) fit = with_clean_data(std::move(*fit));
-    if (fit) fit = or_drifting(std::move(*fit));
-    if (fit && scales_.stiffness_drifts) fit = with_clean_data(std::move(*fit));
     if (!fit) return std::nullopt;
+    if (std::optional<BlockFit> drifting = with_drift(*fit)) {
+      scales_.stiffness_drifts = true;  // of all later fits, too
+      fit = with_clean_data(*std::move(drifting));
+      if (!fit) return std::nullopt;
+    }
     if (excluded_.size() > excluded) fit = or_wandering(*std::move(fit), kFinal);  // outliers may have led there
     if (!fit->level().lines_Hz.empty()) fit = with_hum_in_bins(*std::move(fit), cut());
     if (quality_.clock_jitter > thresholds::kUnevenClock) fit = with_clock_weights(std::move(*fit));
@@ -175,18 +178,10 @@ class Fitter {
     return wandering && level_wanders(*wandering, fit, held_) ? *std::move(wandering) : std::move(fit);
   }
 
-  /// Returns the fit with k that changes along the path if it shows that k does. All later fits have this, too.
-  [[nodiscard]] BlockFit or_drifting(BlockFit fit) {
-    if (held_[kLogStiffness]) return fit;
-    std::optional<BlockFit> drifting = with_drift(fit);
-    if (!drifting) return fit;
-    scales_.stiffness_drifts = true;
-    return *std::move(drifting);
-  }
-
-  /// Returns the fit with k that changes along the path. The result is empty where a linear step gains too little, or
-  /// where errors or a level that belongs to friction explain the change. docs/model.md (26a)
+  /// Returns the fit with k that changes along the path. The result is empty where k is held, where a linear step gains
+  /// too little, or where errors or a level that belongs to friction explain the change. docs/model.md (26a)
   [[nodiscard]] std::optional<BlockFit> with_drift(const BlockFit& fit) const {
+    if (held_[kLogStiffness]) return std::nullopt;
     Scales scales = fit.scales();
     scales.stiffness_drifts = true;
     BlockFit all = fit.with_scales(scales);
