@@ -8,6 +8,7 @@
 
 #include "model/velocity_law.hpp"
 #include "model/velocity_slip.hpp"
+#include "slipfit/model/velocity_friction.hpp"
 
 using namespace slipfit;
 
