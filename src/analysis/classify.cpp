@@ -53,11 +53,19 @@ bool is_release(const Recording& recording, const Segmentation& segmentation) {
   return first_s > thresholds::kSpanShare * recording.duration_s() && last_s - first_s < 0.3 * recording.duration_s();
 }
 
+/// As many falls as slips are needed are larger than what noise makes of a steady force.
+bool slips_stand_out_of_noise(const Segmentation& segmentation) {
+  const auto stands_out = [&](const DetectedSlip& slip) {
+    return slip.drop() >= thresholds::kNoiseDrop * segmentation.noise;
+  };
+  return std::ranges::count_if(segmentation.slips, stands_out) >= std::ptrdiff_t{thresholds::kFewestSlips};
+}
+
 std::optional<Classification> by_counts(const Recording& recording, const Segmentation& segmentation,
                                         const SpectralFrequency& spectral) {
   const std::size_t count = segmentation.slips.size();
   if (count == 0) return Classification{MotionClass::SteadySliding, "the force has no drops larger than its noise"};
-  if (is_faint(segmentation) && no_repetition(spectral)) {
+  if (is_faint(segmentation) && !slips_stand_out_of_noise(segmentation) && no_repetition(spectral)) {
     return Classification{MotionClass::SteadySliding, "the force varies no more than its noise, without repetition"};
   }
   if (!slips_are_sudden(segmentation) && is_release(recording, segmentation)) {
@@ -88,12 +96,15 @@ bool spectrum_agrees(const Segmentation& segmentation, const SpectralFrequency& 
   return std::abs(*spectral.value_Hz * signal::median(slip_intervals_s(segmentation)) - 1.0) < thresholds::kSameRhythm;
 }
 
-/// Large swings of a body that moves smoothly, as a level that wanders does not.
+/// Large swings that are smoother than a level that wanders, as those of a body that moves, or rougher, as those of one
+/// that rings. Falls that are not much larger than the noise of the samples are as rough as that.
 bool is_chatter(const Recording& recording, const Signals& signals) {
   const Segmentation& segmentation = signals.segmentation;
   if (segmentation.slips.size() < thresholds::kFewestCycles) return false;
   if (!(swing_share(segmentation) > thresholds::kLargeSwing)) return false;
-  return smoothness(recording, signals.quality, segmentation) > thresholds::kSmoothMotion;
+  const double smooth = smoothness(recording, signals.quality, segmentation);
+  const bool is_above_noise = median_drop(segmentation) > thresholds::kNoiseDrop * signals.quality.noise_rms;
+  return smooth > thresholds::kSmoothMotion || (smooth < thresholds::kRoughMotion && is_above_noise);
 }
 
 /// Swings that are no wander of a level, and no motion that repeats.

@@ -341,6 +341,10 @@ inline constexpr double kLargeSwing = 0.2;
 /// [1; derived: between 0.5 of a random walk and 1.5 of straight sticks]
 inline constexpr double kSmoothMotion = 1.0;
 
+/// The same exponent, below which swings far above the noise are those of a body that rings. [1; derived: between 0 of
+/// white noise and 0.5 of a random walk]
+inline constexpr double kRoughMotion = 0.25;
+
 /// Share of the scatter of an interval that adds up from interval to interval, above which falls keep no clock's phase.
 /// [1; derived: 0 for a clock read with noise, 1 for slips]
 inline constexpr double kWalkShare = 0.2;
@@ -378,9 +382,13 @@ inline constexpr double kSureHum = 20.0;
 /// Power of a line at another frequency, as kSureHum. [1; derived: 1e-9 by chance in white noise of a million bins]
 inline constexpr double kSureLine = 70.0;
 
-/// Mean of the unit vectors of a line's phases at the onsets of the slips, up to which it has nothing to do with them.
-/// [1; derived: exceeded with exp(-0.25 n) by chance with n cycles]
-inline constexpr double kNoPhase = 0.5;
+/// Mean of the unit vectors of a line's phases at the onsets of the slips, above which it is in step with them.
+/// [1; derived: exp(-0.81 n) by chance with n cycles]
+inline constexpr double kInStep = 0.9;
+
+/// Share of the power of a line that the residuals keep without what repeats from cycle to cycle, up to which the line
+/// belongs to the shape of the cycles. [1; convention: half]
+inline constexpr double kUnlikeCycles = 0.5;
 
 /// Fewest cycles with which a line, or a wave of the level, is sought. [count; derived: exp(-0.25 n) is a percent of
 /// chance there]
@@ -389,10 +397,6 @@ inline constexpr std::size_t kFewestOfLine = 16;
 /// Power of a line over that of the strongest in the same residuals, below which it may be an image of it. [1;
 /// calibrated: images are below 0.022 for 60 simulated recordings with hum]
 inline constexpr double kHumImage = 0.1;
-
-/// Mean of the unit vectors of a line's phases at the onsets of the slips, above which it is in step with them.
-/// [1; derived: exp(-0.81 n) by chance with n cycles]
-inline constexpr double kInStep = 0.9;
 
 /// Power of fitted hum over that of the residuals, above which outliers are looked for again. [1; convention]
 inline constexpr double kBlurringHum = 0.5;
@@ -490,8 +494,8 @@ inline constexpr double kContradictedMass = 1.25;
 /// the rig would agree by chance. [1; derived: 3 of them are a factor of 1.6]
 inline constexpr double kInformativeFrequency = 0.15;
 
-/// Chance below which static friction that differs between the speeds ages. [1; convention: static friction of polymers
-/// and rubber does]
+/// Chance below which the static friction of recordings at several speeds does not lie on a line within their own
+/// errors. [1; convention]
 inline constexpr double kAgeingChance = 0.05;
 
 /// Chance below which ageing has a cut-off. [1; derived: taken wrongly in one sweep of 200]

@@ -167,6 +167,20 @@ TEST_CASE("large irregular swings are not steady sliding, whatever the zero of t
   CHECK(analysis.cycles.period_s);
 }
 
+TEST_CASE("large irregular swings stay what they are where samples are missing") {
+  const Recording whole = chatter(0.0);
+  std::mt19937_64 random(2);
+  std::vector<std::size_t> kept;
+  for (std::size_t i = 0; i < whole.size(); ++i) {
+    if (random() % 20 != 0) kept.push_back(i);
+  }
+  const Recording part = whole.selected(kept);
+  const double smooth_whole = smoothness(whole, assess_quality(whole), falls_of(whole));
+  const double smooth_part = smoothness(part, assess_quality(part), falls_of(part));
+  CHECK(smooth_part == Approx(smooth_whole).margin(0.2));
+  CHECK(analyze_and_fit(part).motion == MotionClass::Undetermined);
+}
+
 TEST_CASE("nearly sinusoidal slips near the mains differ from its hum by their phase") {
   const double frequency_Hz = GENERATE(49.8, 50.0, 60.0);
   CAPTURE(frequency_Hz);
@@ -239,6 +253,25 @@ Segmentation falls(const std::vector<double>& drops, double noise) {
   return segmentation;
 }
 
+TEST_CASE("large irregular swings that ring are not steady sliding, those of noise are") {
+  std::mt19937_64 random(17);
+  std::normal_distribution<double> normal(0.0, 0.5);
+  std::vector<double> force(2000);
+  for (double& value : force) value = normal(random);
+  const Recording recording = recorded(std::move(force), 100.0, 0.001);
+  Estimates estimates;
+  double time_s = 0.0;
+  for (std::size_t i = 0; i < 40; ++i) {
+    time_s += i % 2 == 0 ? 0.1 : 0.9;
+    estimates.signals.segmentation.slips.push_back({50 * i, 50 * i + 4, 1.0, -1.0, time_s, 0.04, 0.04});
+  }
+  estimates.signals.segmentation.noise = 0.01;
+  estimates.signals.quality.noise_rms = 0.01;
+  CHECK(classify(recording, estimates).motion == MotionClass::Undetermined);
+  estimates.signals.quality.noise_rms = 0.5;
+  CHECK(classify(recording, estimates).motion == MotionClass::SteadySliding);
+}
+
 TEST_CASE("whether a fit that determines nothing is loose or worse does not change the answer") {
   const Recording recording = recorded(std::vector<double>(2000, 1.0), 100.0, 0.001);
   Estimates estimates;
@@ -265,6 +298,19 @@ TEST_CASE("whether a fit that determines nothing is loose or worse does not chan
   }
   CHECK(classified(0.17, ParameterStatus::Weak).model_fits);
   CHECK(classified(0.05, ParameterStatus::Unidentified).model_fits);
+}
+
+TEST_CASE("a force is no noise where as many falls as slips are needed stand out, however many do not") {
+  const Recording recording = recorded(std::vector<double>(2000, 1.0), 100.0, 0.001);
+  const auto motion_with = [&](std::size_t large) {
+    std::vector<double> drops(15, 0.9);
+    std::fill_n(drops.begin() + 5, large, 3.0);
+    Signals signals;
+    signals.segmentation = falls(drops, 1.0 / thresholds::kNoiseDrop);
+    return classify_by_shape(recording, signals).motion;
+  };
+  CHECK(motion_with(thresholds::kFewestSlips - 1) == MotionClass::SteadySliding);
+  CHECK(motion_with(thresholds::kFewestSlips) != MotionClass::SteadySliding);
 }
 
 TEST_CASE("half of the falls no larger than noise makes them is faint, however many they are") {

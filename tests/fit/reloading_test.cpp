@@ -187,6 +187,36 @@ TEST_CASE("a sweep shares the length of the rise, and predicts with it a speed t
   CHECK(*predicted.value == Approx(s.speed / *truth.frequency.quoted.value).epsilon(0.02));
 }
 
+TEST_CASE("a rise that lasts few samples is found behind an average, whose time it does not spoil") {
+  Scene s = bent_sticks();
+  s.noise = 0.0;
+  s.samples_per_slip = 36.0;
+  s.cycles = 120.0;
+  s.seed = GENERATE(range<std::uint64_t>(1, 5));
+  CAPTURE(s.seed);
+  const double difference_N = s.static_N - s.kinetic_N;
+  constexpr std::size_t kAverage = 40;  // W = 3.5 / w_n
+  constexpr std::size_t kEvery = 9;     // four samples in a slip
+  const Recording fine =
+      moving_average(reloading_recording(s, kRise * difference_N), kAverage, 0.003 * difference_N, s.seed);
+  std::vector<double> time_s, force;
+  for (std::size_t i = 0; i < fine.size(); i += kEvery) {
+    time_s.push_back(fine.time_s()[i]);
+    force.push_back(fine.force()[i]);
+  }
+  const double average_s = static_cast<double>(kAverage) * (fine.time_s()[1] - fine.time_s()[0]);
+  const Analysis analysis =
+      analyze_and_fit(Recording::create(std::move(time_s), std::move(force), fine.conditions()).value());
+  REQUIRE(analysis.fit);
+  for (const auto& [name, truth] :
+       {std::pair{"sensor_average_s", average_s}, std::pair{"reload_force_N", kRise * difference_N},
+        std::pair{"reload_length_m", kLength_m}, std::pair{"stiffness_N_per_m", s.stiffness}}) {
+    INFO(name);
+    const Estimate& estimate = parameter(analysis, name).estimate;
+    CHECK(std::abs(*estimate.value - truth) < 3.5 * *estimate.standard_error);
+  }
+}
+
 TEST_CASE("a sweep finds the length of the rise behind an average that nobody stated") {
   Scene s = bent_sticks();
   s.noise = 0.0;

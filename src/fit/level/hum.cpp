@@ -187,31 +187,14 @@ struct Prominence {
   [[nodiscard]] double of(double amplitude_squared) const { return 0.5 * amplitude_squared * used * used / square; }
 };
 
-/// Length of the mean of the unit vectors of a line's phases at the onsets of the slips: 1 where all are equal, 1 /
-/// sqrt(cycles) where they have nothing to do with the slips.
-double phase_coherence(const BlockFit& fit, double frequency_Hz) {
+/// A line that has the same phase at the onset of every slip cannot be distinguished from the shape of the cycles, nor
+/// from what the fit makes of it: the mean of the unit vectors of its phases there is long.
+bool is_in_step(const BlockFit& fit, double frequency_Hz) {
   std::complex<double> sum;
   for (std::size_t i = 0; i < fit.size(); ++i) {
     sum += std::polar(1.0, 2.0 * std::numbers::pi * frequency_Hz * (fit.state(i).onset_s - fit.state(0).onset_s));
   }
-  return std::abs(sum) / static_cast<double>(fit.size());
-}
-
-/// A line that has the same phase at the onset of every slip cannot be distinguished from the shape of the cycles.
-bool is_in_step(const BlockFit& fit, double frequency_Hz) {
-  return phase_coherence(fit, frequency_Hz) > thresholds::kInStep;
-}
-
-/// Returns whether sampling at this rate shows a frequency in step with the slips where the line is. Such frequencies
-/// are harmonics above the Nyquist frequency. Those from farther than twice the rate are never the strongest.
-bool may_be_folded(const BlockFit& fit, double frequency_Hz, double rate_Hz) {
-  constexpr int kFolds = 2;
-  for (int fold = 1; fold <= kFolds; ++fold) {
-    for (const double sign : {-1.0, 1.0}) {
-      if (phase_coherence(fit, fold * rate_Hz + sign * frequency_Hz) > thresholds::kNoPhase) return true;
-    }
-  }
-  return false;
+  return std::abs(sum) > thresholds::kInStep * static_cast<double>(fit.size());
 }
 
 /// Computes the spectrum of the rest. Each of several runs has a window of its own, without which a line would leak
@@ -220,8 +203,7 @@ class RestSpectrum {
  public:
   explicit RestSpectrum(const EvenRest& rest) {
     const std::size_t length = signal::good_length(rest.values.size());
-    rate_Hz_ = 1.0 / rest.step_s;
-    bin_Hz_ = rate_Hz_ / static_cast<double>(length);
+    bin_Hz_ = 1.0 / (rest.step_s * static_cast<double>(length));
     double samples = 0.0;
     for (const CycleRun& run : rest.runs) samples += run.size();
     reach_Hz_ = 2.0 * static_cast<double>(rest.runs.size()) / (samples * rest.step_s);
@@ -236,8 +218,6 @@ class RestSpectrum {
   [[nodiscard]] std::optional<double> strongest(double lowest_Hz, double resolution_Hz) const {
     return signal::strongest_line(power_, bin_Hz_, resolution_Hz, lowest_Hz);
   }
-  /// Returns the rate of the samples.
-  [[nodiscard]] double rate_Hz() const { return rate_Hz_; }
   /// Distance up to which the window of a run spreads a line.
   [[nodiscard]] double reach_Hz() const { return reach_Hz_; }
   /// Returns the largest power at a distance of at most `distance_Hz` from the frequency.
@@ -262,15 +242,47 @@ class RestSpectrum {
   }
 
   std::vector<double> power_;
-  double rate_Hz_ = 0.0;
   double bin_Hz_ = 0.0;
   double reach_Hz_ = 0.0;
 };
 
+/// The residuals without what repeats from cycle to cycle, which is the shape of the cycles and no line: their mean
+/// over all cycles at each time from the onset of the slip.
+std::vector<double> without_repeats(const Recording& recording, const BlockFit& fit, std::vector<double> residuals) {
+  const auto time_s = recording.time_s();
+  const double step_s = recording.sample_interval_s();
+  double longest_s = 0.0;
+  for (std::size_t i = 0; i < fit.size(); ++i) {
+    const double onset_s = fit.state(i).onset_s;
+    longest_s = std::max({longest_s, onset_s - fit.data(i).window_begin_s, fit.data(i).window_end_s - onset_s});
+  }
+  const auto half = static_cast<std::ptrdiff_t>(std::ceil(longest_s / step_s)) + 1;
+  std::vector<double> sums(static_cast<std::size_t>(2 * half + 1), 0.0);
+  std::vector<double> counts(sums.size(), 0.0);
+  const auto for_each_sample = [&](const auto& f) {
+    for (std::size_t i = 0; i < fit.size(); ++i) {
+      const double onset_s = fit.state(i).onset_s;
+      const CycleData& cycle = fit.data(i);
+      auto at = static_cast<std::size_t>(std::ranges::lower_bound(time_s, cycle.window_begin_s) - time_s.begin());
+      for (; at < time_s.size() && time_s[at] < cycle.window_end_s; ++at) {
+        const auto place = static_cast<std::ptrdiff_t>(std::lround((time_s[at] - onset_s) / step_s)) + half;
+        if (residuals[at] != 0.0 && place >= 0 && place <= 2 * half) f(at, static_cast<std::size_t>(place));
+      }
+    }
+  };
+  for_each_sample([&](std::size_t at, std::size_t place) {
+    sums[place] += residuals[at];
+    counts[place] += 1.0;
+  });
+  for_each_sample([&](std::size_t at, std::size_t place) { residuals[at] -= sums[place] / counts[place]; });
+  return residuals;
+}
+
 /// New lines in what a fit leaves.
 class NewLines {
  public:
-  NewLines(const BlockFit& fit, const Rest& rest, const std::optional<StickRipple>& in_sticks)
+  NewLines(const Recording& recording, const BlockFit& fit, const Rest& rest,
+           const std::optional<StickRipple>& in_sticks)
       : known_Hz_(fit.level().lines_Hz), resolution_Hz_(rest.resolution_Hz()), spectrum_(rest.on_even_clock()) {
     const Prominence prominence(rest.values());
     const auto is_new = [&](double f_Hz) { return !is_near_one_of(f_Hz, known_Hz_) && !is_in_step(fit, f_Hz); };
@@ -280,14 +292,22 @@ class NewLines {
       const double f_Hz = line.frequency_Hz;
       if (is_new(f_Hz) && prominence.of(rest.power_at(f_Hz)) > thresholds::kSureHum) seen_Hz_.push_back(f_Hz);
     }
+    std::optional<Rest> unlike_cycles;
+    // The mains is where it is; a line elsewhere may be what the model misses of the slips, which scatter.
+    const auto is_no_misfit = [&](double f_Hz) {
+      if (!unlike_cycles) unlike_cycles.emplace(recording, fit, without_repeats(recording, fit, rest.values()));
+      return unlike_cycles->power_at(f_Hz) > thresholds::kUnlikeCycles * rest.power_at(f_Hz);
+    };
     const std::optional<double> other_Hz = line_in_residuals(fit, rest);
     if (other_Hz && is_new(*other_Hz) && !is_near_one_of(*other_Hz, seen_Hz_)) {
       const double square = rest.power_at(*other_Hz);
       // Weaker ones may be of slips that a drive moves, or of rounding.
       const bool is_large = square > fit.scales().noise * fit.scales().noise;
-      if (is_large && prominence.of(square) > thresholds::kSureLine) seen_Hz_.push_back(*other_Hz);
+      const bool is_line = is_large && prominence.of(square) > thresholds::kSureLine;
+      if (is_line && is_no_misfit(*other_Hz)) seen_Hz_.push_back(*other_Hz);
     }
-    if (in_sticks && is_new(in_sticks->frequency_Hz) && !is_near_one_of(in_sticks->frequency_Hz, seen_Hz_)) {
+    if (in_sticks && is_new(in_sticks->frequency_Hz) && !is_near_one_of(in_sticks->frequency_Hz, seen_Hz_) &&
+        is_no_misfit(in_sticks->frequency_Hz)) {
       seen_Hz_.push_back(in_sticks->frequency_Hz);
     }
   }
@@ -310,16 +330,12 @@ class NewLines {
   }
 
  private:
-  /// The strongest line of the rest where the slips have no line: with another phase at the onset of each. Among few
-  /// slips this is chance, and between runs of cycles lines have images.
+  /// The strongest line of the rest. Among few slips this is chance, and between runs of cycles lines have images.
   [[nodiscard]] std::optional<double> line_in_residuals(const BlockFit& fit, const Rest& rest) const {
     if (fit.size() < thresholds::kFewestOfLine || rest.runs().size() > 1) return std::nullopt;
     const double span_s = fit.state(fit.size() - 1).onset_s - fit.state(0).onset_s;
     const double slips_Hz = static_cast<double>(fit.size() - 1) / span_s;
-    const std::optional<double> line_Hz = spectrum_.strongest(slips_Hz, resolution_Hz_);
-    if (!line_Hz || phase_coherence(fit, *line_Hz) > thresholds::kNoPhase) return std::nullopt;
-    if (may_be_folded(fit, *line_Hz, spectrum_.rate_Hz())) return std::nullopt;
-    return line_Hz;
+    return spectrum_.strongest(slips_Hz, resolution_Hz_);
   }
   /// The mains wanders.
   [[nodiscard]] double width_Hz(double frequency_Hz) const {
@@ -352,7 +368,7 @@ HumSearch find_hum(const Recording& recording, const BlockFit& fit, std::vector<
   std::vector<double> strong_Hz;
   HumSearch found;
   {
-    const NewLines lines(fit, rest, in_sticks);
+    const NewLines lines(recording, fit, rest, in_sticks);
     strong_Hz = lines.strong();
     found.others_wait = !strong_Hz.empty() && strong_Hz.size() < lines.seen();
   }

@@ -164,6 +164,14 @@ std::optional<DampedFit> fit_as_sensed(const FitInput& input, DampedFit plain) {
   return fit && rival ? widened_by_rival(*std::move(fit), *rival) : std::move(fit);
 }
 
+std::optional<DampedFit> rise_behind_average(const FitInput& input, const RiseDraft& draft) {
+  if (!draft.unproven || input.recording.conditions().sensor_average_s) return std::nullopt;
+  DampedFit risen = *draft.unproven;
+  risen.rounding = estimate_smoothing(risen.blocks, risen.held, input.recording.sample_interval_s());
+  AverageTrial trial = try_average(input, risen);
+  return trial.fit && proves_rise(*trial.fit, draft) ? std::move(trial.fit) : std::nullopt;
+}
+
 bool repeats_rounding(const DampedFit& fit) {
   return fit.uncertainty.from_refits && !fit.misfit;
 }

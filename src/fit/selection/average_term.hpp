@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "fit/selection/rise_term.hpp"
 #include "fit/selection/solution.hpp"
 
 namespace slipfit::fit {
@@ -17,6 +18,10 @@ bool average_is_identifiable(const FittedAverage& average);
 /// `plain` finished, with the average that the slips show where the recording states none. Where one is not ruled out,
 /// intervals hold what it would make of the slips.
 std::optional<DampedFit> fit_as_sensed(const FitInput& input, DampedFit plain);
+
+/// Returns the finished fit of a draft whose rise is known only together with an average. Empty where it is not known
+/// so, either.
+std::optional<DampedFit> rise_behind_average(const FitInput& input, const RiseDraft& draft);
 
 /// Rounding to steps of the converter repeats its errors in every cycle: their scatter does not show how well averaging
 /// is known.

@@ -59,8 +59,10 @@ Chosen choose_law(const FitInput& input, DampedFit damped, std::optional<Tier> f
 
 /// Chooses the law from the slips alone. The result is empty where no fit of them is found.
 std::optional<Chosen> choose(const FitInput& input, std::optional<Tier> forced, const AbortPredicate& should_abort) {
-  std::optional<DampedFit> fit = draft_with_rise(input, should_abort);
-  if (fit) fit = fit_as_sensed(input, *std::move(fit));
+  std::optional<RiseDraft> draft = draft_with_rise(input, should_abort);
+  if (!draft) return std::nullopt;
+  std::optional<DampedFit> fit = rise_behind_average(input, *draft);
+  if (!fit) fit = fit_as_sensed(input, std::move(draft->fit));
   if (!fit) return std::nullopt;
   return choose_law(input, fit_with_mass(input, *std::move(fit)), forced);
 }

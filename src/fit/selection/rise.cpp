@@ -84,7 +84,7 @@ std::optional<RampBend> bend_between(const BlockFit& fit, const PartsOf& parts_o
   std::vector<std::pair<double, double>> cycles;
   for (std::size_t i = 0; i < fit.size(); ++i) {
     auto [early, late] = parts_of(i);
-    if (late.count < 3.0 || early.count < 3.0) continue;
+    if (late.count < 2.0 || early.count < 2.0) continue;
     late.slope -= level_slope(fit, i, late.time_s);
     early.slope -= level_slope(fit, i, early.time_s);
     const double weight = 1.0 / (1.0 / late.time_spread + 1.0 / early.time_spread);
@@ -146,7 +146,7 @@ std::optional<RampDrift> drift_in_ramps(const BlockFit& fit) {
   for (std::size_t i = 0; i < fit.size(); ++i) {
     const StickBin late = merge(straightened(fit.data(i).bins_before, fit, i));
     const StickBin early = merge(straightened(fit.data(i).bins_after, fit, i));
-    if (late.count < 3.0 || early.count < 3.0) continue;
+    if (late.count < 2.0 || early.count < 2.0) continue;
     weight.push_back(late.time_spread + early.time_spread);
     const auto mean = [&](double of_late, double of_early) {
       return (late.time_spread * of_late + early.time_spread * of_early) / weight.back();
@@ -234,7 +234,7 @@ std::optional<DampedFit> settle_rise(const FitInput& input, std::optional<Damped
   const double step_m = fit->blocks.scales().speed_m_per_s * input.recording.sample_interval_s();
   for (int round = 0; fit && round < kMostRounds; ++round) {
     const double before_m = rise_length_m(*fit);
-    if (!rises(fit->blocks) || !(before_m >= thresholds::kSlipSamples * step_m)) return std::nullopt;
+    if (!rises(fit->blocks) || !(before_m >= step_m)) return std::nullopt;
     fit = with_free_length(input.quality, *std::move(fit));
     if (!fit) return fit;
     const double change = std::abs(std::log(rise_length_m(*fit) / before_m));

@@ -39,37 +39,48 @@ bool is_at_bound(const BlockFit& fit) {
   return std::exp(fit.parameters.values(kReloadLength)) > kNear * fit.level().reloading->longest_m;
 }
 
-/// Returns whether this recording alone determines A and l, and they explain most of what bends.
-bool is_justified(const DampedFit& fit, const DampedFit& plain, const RampBend& before) {
-  const double rise = fit.blocks.parameters.values(kReloadForce);
-  const std::optional<RampBend> after = ramp_bend(fit.blocks);
+/// Returns whether the rise explains most of what bends, and more than a fit without it by the price of a term.
+bool explains(const DampedFit& risen, const DampedFit& plain, const RampBend& before) {
+  const std::optional<RampBend> after = ramp_bend(risen.blocks);
   const bool is_straight = after && std::abs(after->log_ratio) < thresholds::kHalvedStack * before.log_ratio;
-  return is_straight && !is_at_bound(fit.blocks) && rise > thresholds::kClearSigmas * error_of(fit, kReloadForce) &&
-         error_of(fit, kReloadLength) < thresholds::kInformativeError && gain_of(fit, plain) > thresholds::kTierPrice;
+  return is_straight && !is_at_bound(risen.blocks) && gain_of(risen, plain) > thresholds::kTierPrice;
+}
+
+/// Returns whether the data determine A and l without more terms.
+bool is_determined(const FitInput& input, const DampedFit& risen) {
+  const double step_m = risen.blocks.scales().speed_m_per_s * input.recording.sample_interval_s();
+  const double rise = risen.blocks.parameters.values(kReloadForce);
+  return rise_length_m(risen) >= thresholds::kSlipSamples * step_m &&
+         rise > thresholds::kClearSigmas * error_of(risen, kReloadForce) &&
+         error_of(risen, kReloadLength) < thresholds::kInformativeError;
 }
 
 }  // namespace
 
-std::optional<DampedFit> draft_with_rise(const FitInput& input, const AbortPredicate& should_abort) {
+std::optional<RiseDraft> draft_with_rise(const FitInput& input, const AbortPredicate& should_abort) {
   std::optional<DampedFit> plain = draft_damped(input, should_abort);
-  if (!plain) return plain;
-  const std::optional<RampBend> bend = ramp_bend(plain->blocks);
-  if (!bends(bend, *plain, input.quality)) return plain;
-  const std::optional<TermFitter> fitter = TermFitter::create(input, *plain);
+  if (!plain) return std::nullopt;
+  RiseDraft draft{*std::move(plain)};
+  const std::optional<RampBend> bend = ramp_bend(draft.fit.blocks);
+  if (!bends(bend, draft.fit, input.quality)) return draft;
+  const std::optional<TermFitter> fitter = TermFitter::create(input, draft.fit);
   const std::vector<Minimum> minima = fitter ? fitter->minima({.rise = true}).found : std::vector<Minimum>();
-  if (minima.empty() || !promises(minima.front().blocks, *bend)) return plain;
+  if (minima.empty() || !promises(minima.front().blocks, *bend)) return draft;
   const Minimum& best = minima.front();
-  if (is_at_bound(best.blocks)) {
-    const double gain = fitter->gain_on_all(best, fitter->plain());
-    if (gain > thresholds::kTierPrice) plain->rivals.push_back(coordinates_of(best.blocks));
-    return plain;
-  }
-  std::optional<DampedFit> fit = fitter->draft(best.blocks);
-  if (!fit) return plain;
-  if (is_justified(*fit, *plain, *bend)) return fit;
-  const bool explains_more = gain_of(*fit, *plain) > thresholds::kTierPrice;
-  if (explains_more) plain->rivals.push_back(coordinates_of(fit->blocks));
-  return plain;
+  std::optional<DampedFit> risen = fitter->draft(best.blocks);
+  if (risen && explains(*risen, draft.fit, *bend) && is_determined(input, *risen)) return RiseDraft{*std::move(risen)};
+  const bool is_open = is_at_bound(best.blocks);
+  const double gain = is_open ? fitter->gain_on_all(best, fitter->plain()) : risen ? gain_of(*risen, draft.fit) : 0.0;
+  if (!(gain > thresholds::kTierPrice)) return draft;
+  draft.fit.rivals.push_back(coordinates_of(is_open ? best.blocks : risen->blocks));
+  draft.unproven = std::move(risen);
+  draft.bend = *bend;
+  return draft;
+}
+
+bool proves_rise(const DampedFit& fit, const RiseDraft& draft) {
+  const double rise = fit.blocks.parameters.values(kReloadForce);
+  return explains(fit, draft.fit, draft.bend) && rise > thresholds::kLikelySigmas * error_of(fit, kReloadForce);
 }
 
 std::optional<DampedFit> draft_with_rise_over(double length_m, const FitInput& input, const DampedFit& plain) {

@@ -75,8 +75,9 @@ DampedFit fit_with_mass(const FitInput& input, DampedFit fit) {
   std::optional<DampedFit> by_mass;
   for (int round = 0; round < kRounds; ++round) {
     held.natural_frequency_rad_per_s = mass->frequency_rad_per_s(stiffness);
-    by_mass = draft_with_rise(averaged);
-    if (!by_mass) return fit;
+    std::optional<RiseDraft> draft = draft_with_rise(averaged);
+    if (!draft) return fit;
+    by_mass = std::move(draft->fit);
     stiffness = fitted_stiffness(*by_mass);
   }
   const bool contradicts = by_mass->uncertainty.noise > thresholds::kContradictedMass * fit.uncertainty.noise;

@@ -62,7 +62,7 @@ class OwnFitter {
     for (const SweepRecording& sweep : recordings_) {
       std::optional<DampedFit>& fit = own.fits.emplace_back();
       if (sweep.role != SweepRole::Cycles) continue;
-      fit = draft_with_rise({sweep.recording, sweep.quality, sweep.segmentation, held_});
+      fit = own_draft({sweep.recording, sweep.quality, sweep.segmentation, held_});
     }
     share_length(own);
     for (std::size_t i = 0; i < recordings_.size(); ++i) {
@@ -78,6 +78,18 @@ class OwnFitter {
  private:
   [[nodiscard]] FitInput input(std::size_t i) const {
     return {recordings_[i].recording, recordings_[i].quality, recordings_[i].segmentation, held_};
+  }
+
+  /// Returns the draft of a recording. A rise that is known only behind an average has the length that it has there.
+  [[nodiscard]] std::optional<DampedFit> own_draft(const FitInput& input) const {
+    std::optional<RiseDraft> draft = draft_with_rise(input);
+    if (!draft) return std::nullopt;
+    const std::optional<DampedFit> behind = rise_behind_average(input, *draft);
+    if (!behind) return std::move(draft->fit);
+    DampedFit& risen = *draft->unproven;
+    risen.blocks.parameters.values(kReloadLength) = behind->blocks.parameters.values(kReloadLength);
+    risen.uncertainty.covariance(kReloadLength, kReloadLength) = std::pow(error_of(*behind, kReloadLength), 2);
+    return std::move(draft->unproven);
   }
 
   [[nodiscard]] bool states_average(std::size_t i) const {
