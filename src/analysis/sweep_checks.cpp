@@ -81,11 +81,17 @@ SweepRole role_of(const Recording& recording, const Analysis& analysis) {
   return analysis.motion == MotionClass::SteadySliding ? SweepRole::Steady : SweepRole::LeftOut;
 }
 
+/// Samples of the fall that a slip shows behind the average that the fit found.
+double samples_per_fall(const Recording& recording, const FitResult& fit) {
+  const double average_s = fit.estimate_of(ParameterId::SensorAverage).value.value_or(0.0);
+  return fit.diagnostics.samples_per_slip + average_s / recording.sample_interval_s();
+}
+
 /// Returns true for stick-slip whose slips are too poorly sampled for their shape, even together.
 bool is_unresolved(const Recording& recording, const Analysis& analysis) {
   return role_of(recording, analysis) == SweepRole::Cycles && analysis.fit->tier == Tier::Sawtooth &&
          analysis.fit->diagnostics.samples_per_slip > 0.0 &&
-         analysis.fit->diagnostics.samples_per_slip < thresholds::kResolvedSamples;
+         samples_per_fall(recording, *analysis.fit) < thresholds::kResolvedSamples;
 }
 
 }  // namespace

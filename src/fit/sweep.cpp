@@ -47,9 +47,34 @@ double residual_rms(const SweepSolution& solution) {
   return std::sqrt(square / static_cast<double>(solution.cycles()));
 }
 
-/// Returns the spread of the outcome, with a one-sided spread of w_n that averaging adds.
-fit::Spread spread_of(const SweepOutcome& outcome, double averaging) {
+/// Sticks of a sweep that bend.
+struct BentSticks {
+  std::size_t recordings = 0;
+  double largest = 0.0;   ///< change of their slope, of 1
+  double variance = 0.0;  ///< of ln k, the mean of the recordings
+};
+
+BentSticks bent_sticks_of(const SweepSolution& solution) {
+  BentSticks bent;
+  for (const fit::BlockFit& recording : solution.recordings) {
+    const bool bends_in_model = recording.scales().relaxing.has_value();
+    const std::optional<fit::Bend> bend = bends_in_model ? std::nullopt : fit::bend_of(recording);
+    if (!bend) continue;
+    ++bent.recordings;
+    bent.largest = std::max(bent.largest, std::abs(bend->log_ratio));
+    bent.variance += bend->error * bend->error / static_cast<double>(solution.recordings.size());
+  }
+  return bent;
+}
+
+/// Returns the spread of the outcome, with a one-sided spread of w_n that averaging adds, and what sticks that bend add
+/// to k.
+fit::Spread spread_of(const SweepOutcome& outcome, double averaging, const BentSticks& bent) {
   fit::Spread spread = outcome.spread;
+  if (!outcome.solution.held[fit::kLogStiffness]) {
+    spread.covariance(fit::kLogStiffness, fit::kLogStiffness) += bent.variance;
+    if (spread.profile) spread.profile->held(fit::kLogStiffness, fit::kLogStiffness) += bent.variance;
+  }
   spread.one_sided.emplace_back(averaging * fit::Coordinates::Unit(fit::kLogFrequency));
   return spread;
 }
@@ -75,8 +100,9 @@ class Assembler {
         trend_(fit::trend_of_sweep(recordings, data, outcome.solution.held)),
         values_(fit::with_trend(fit::with_damping_cut(outcome.values, outcome.spread.covariance), trend_)),
         model_(values_, data.units),
+        bent_(bent_sticks_of(outcome.solution)),
         averaging_(data.motion ? 0.0 : fit::effect_of_averaging(recordings, outcome, data)),
-        intervals_(fit::with_trend(spread_of(outcome, averaging_), trend_, data.units.force)) {}
+        intervals_(fit::with_trend(spread_of(outcome, averaging_, bent_), trend_, data.units.force)) {}
 
   [[nodiscard]] SweepFit assemble(const fit::LawChoice& choice) const {
     SweepFit sweep;
@@ -136,6 +162,12 @@ class Assembler {
             about, ParameterStatus::Weak,
             "residuals exceed the noise: the model misses part of the data, and the interval may be too narrow");
       }
+    }
+    if (bent_.largest > thresholds::kNegligible) {
+      findings.add(fit::About::Stiffness, ParameterStatus::Weak,
+                   fmt::format("the sticks of {} of {} recordings are curved: their slope changes by up to {:.1f} %; "
+                               "the interval of k includes this",
+                               bent_.recordings, solution.recordings.size(), 100.0 * bent_.largest));
     }
     fit::state_trend(trend_, recordings_.front().recording.conditions(), findings);
     if (!findings.damping.value) {
@@ -290,6 +322,7 @@ class Assembler {
   fit::TrendFindings trend_;
   fit::Coordinates values_;
   fit::SlidingModel model_;
+  BentSticks bent_;
   double averaging_;
   fit::Intervals intervals_;
 };

@@ -237,6 +237,25 @@ TEST_CASE("ageing: a sweep tells the cut-off where its sticks span enough, and n
   }
 }
 
+TEST_CASE("ageing: three recordings whose static friction scatters predict by its trend") {
+  test::SpeedSweep truth = ageing_slider();
+  const std::vector<double> speeds{0.01, 0.02, 0.05};
+  std::vector<SweepEntry> entries;
+  for (std::size_t i = 0; i < speeds.size(); ++i) {
+    truth.static_friction_N = ageing_slider().static_friction_N + std::array{0.04, -0.08, 0.04}.at(i);
+    entries.push_back(test::record(truth, speeds[i], 700 + i));
+  }
+  truth.static_friction_N = ageing_slider().static_friction_N;
+  const SweepAnalysis sweep = analyze_sweep(entries);
+  REQUIRE(sweep.fit);
+  REQUIRE(sweep.fit->result.estimate);
+  REQUIRE(sweep.fit->result.estimate->ageing);
+  // The mean static friction of the three would make the spacing at 0.1 m/s 15 % too large.
+  const Estimate spacing = predicted({*sweep.fit->result.estimate, true, std::nullopt}, 0.1).periodic_displacement_m;
+  CHECK(spacing.value.value_or(0.0) == Approx(test::spacing_m(truth, 0.1)).epsilon(0.08));
+  CHECK(holds(spacing, test::spacing_m(truth, 0.1)));
+}
+
 TEST_CASE("ageing: static friction that differs for another reason is not taken for it") {
   int taken = 0;
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {

@@ -1,5 +1,7 @@
 // Recordings that other people measured, from the folder beside the checkout; each test skips, and says so, without it.
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -157,6 +159,75 @@ TEST_CASE("printed plastic: slow recordings predict the spacing at speeds up to 
     // The authors' own reading of the same recordings differs from ours by up to this.
     CHECK(*spacing_m.value == Approx(published_m[speed_mm_min]).epsilon(0.25));
   }
+}
+
+namespace {
+
+/// The sled of 77 or 232 g at these speeds in mm/min, every so many samples. Empty where the recordings are absent.
+std::vector<SweepEntry> printed_plastic(int mass_g, const std::vector<int>& speeds_mm_min, std::size_t every = 1) {
+  std::vector<SweepEntry> entries;
+  for (const int speed_mm_min : speeds_mm_min) {
+    const std::string name = fmt::format("fdm_{}g_{}mm_min.csv", mass_g, speed_mm_min);
+    std::optional<Recording> recording = read_file("real/fdm/" + name, speed_mm_min / 60000.0);
+    if (!recording) return {};
+    std::vector<std::size_t> kept;
+    for (std::size_t i = 0; i < recording->size(); i += every) kept.push_back(i);
+    entries.push_back({name, recording->selected(kept)});
+  }
+  return entries;
+}
+
+}  // namespace
+
+TEST_CASE("printed plastic: any three of the slow recordings predict faster ones") {
+  std::map<int, double> published_m;
+  for (auto& row : table(kData / "real/fdm/published_spacing.csv")) {
+    if (row["mass_g"] == "232")
+      published_m[std::stoi(row["speed_mm_min"])] = 1e-3 * std::stod(row["published_spacing_mm"]);
+  }
+  const std::vector<int> speeds = GENERATE(std::vector<int>{50, 100, 150}, std::vector<int>{30, 100, 150},
+                                           std::vector<int>{30, 50, 150}, std::vector<int>{30, 50, 100});
+  const std::vector<SweepEntry> entries = printed_plastic(232, speeds);
+  if (entries.empty()) return;
+  const SweepAnalysis analysis = analyze_sweep(entries);
+  REQUIRE(analysis.fit);
+  REQUIRE(analysis.fit->result.estimate);
+  for (const int speed_mm_min : {200, 300}) {
+    CAPTURE(speeds, speed_mm_min);
+    const std::vector<double> speed{speed_mm_min / 60000.0};
+    const Prediction prediction = predict_at({*analysis.fit->result.estimate, true, std::nullopt}, speed);
+    const Estimate& spacing_m = prediction.rows.front().periodic_displacement_m;
+    // By the mean static friction of the three, up to 55 % off
+    CHECK(spacing_m.value.value_or(0.0) == Approx(published_m[speed_mm_min]).epsilon(0.2));
+  }
+}
+
+TEST_CASE("printed plastic: half of the samples do not identify another stiffness or mass") {
+  const std::vector<SweepEntry> entries = printed_plastic(77, {30, 50, 100, 150}, 2);
+  if (entries.empty()) return;
+  const SweepAnalysis analysis = analyze_sweep(entries);
+  REQUIRE(analysis.fit);
+  const Parameter* const stiffness = analysis.fit->result.find(ParameterId::Stiffness);
+  REQUIRE(stiffness);
+  CHECK(stiffness->status != ParameterStatus::Identified);
+  CHECK(stiffness->estimate.ci95->low < 145.0);  // the recording at 30 mm/min by itself, and all with every sample
+  const std::vector<SweepEntry> heavy = printed_plastic(232, {100}, 2);
+  const Analysis alone = analyze_and_fit(heavy.front().recording);
+  const Parameter* const average = find(alone, "sensor_average_s");
+  REQUIRE(average);
+  CHECK(*average->estimate.value == Approx(0.1).epsilon(0.03));
+  CHECK(find(alone, "mass_kg")->estimate.value.value_or(0.0) < 0.3);
+}
+
+TEST_CASE("printed plastic: an average and a rise that neither explain alone are found together") {
+  const std::optional<Analysis> analysis = fit_file("real/fdm/fdm_77g_100mm_min.csv", 100.0 / 60000.0);
+  if (!analysis) return;
+  REQUIRE(find(*analysis, "sensor_average_s"));
+  REQUIRE(find(*analysis, "reload_force_N"));
+  CHECK(*find(*analysis, "sensor_average_s")->estimate.value == Approx(0.1).epsilon(0.03));
+  const Estimate& mass = find(*analysis, "mass_kg")->estimate;
+  CHECK(mass.ci95->low < 0.077);
+  CHECK(mass.ci95->high > 0.077);
 }
 
 TEST_CASE("teaching rig without a clock: period found, damping refused, friction drop bounded") {

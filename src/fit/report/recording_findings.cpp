@@ -142,6 +142,22 @@ const BlockFit& reported(const TierFits& fits) {
   return is_at_bound(fits) ? fits.undamped->blocks : fits.damped.blocks;
 }
 
+}  // namespace
+
+std::optional<Bend> bend_of(const BlockFit& blocks) {
+  std::optional<Bend> largest;
+  const auto add = [&](const std::optional<RampBend>& seen, double share, const char* where) {
+    if (!seen || !(std::abs(seen->log_ratio) > thresholds::kClearSigmas * seen->standard_error)) return;
+    const Bend bend{seen->log_ratio, share * std::abs(seen->log_ratio), where};
+    if (!largest || bend.error > largest->error) largest = bend;
+  };
+  add(ramp_bend(blocks), 0.5, "from start to end");
+  add(late_bend(blocks), blocks.level().reloading ? 1.0 : 0.5, "over their second half");
+  return largest;
+}
+
+namespace {
+
 /// Holds what makes k uncertain besides the fit.
 struct StiffnessFindings {
   double variance = 0.0;  ///< of ln k
@@ -153,29 +169,6 @@ struct StiffnessFindings {
 /// Returns a line next to the cycles: left in the sticks because it is in step with the slips, or in the fit.
 std::optional<StickRipple> ripple_of(const DampedFit& fit) {
   return fit.ripple && fit.ripple->speed_share > thresholds::kRippleShare ? fit.ripple : fitted_ripple(fit.blocks);
-}
-
-/// A bend of the ramps, what k may be off by because of it, and where it is.
-struct Bend {
-  double log_ratio = 0.0;
-  double error = 0.0;
-  const char* where = "";
-};
-
-/// Returns the bend that moves k most; the result is empty where none is clear. The slope of a bent ramp depends on the
-/// part that is used, by half of the difference between its two halves. Creep before a slip flattens a stick, and a
-/// rise of the force after a slip steepens its beginning: where a rise is fitted, it takes up part of the creep, and k
-/// may be wrong by all of the bend in the second half of the sticks.
-std::optional<Bend> bend_of(const BlockFit& blocks) {
-  std::optional<Bend> largest;
-  const auto add = [&](const std::optional<RampBend>& seen, double share, const char* where) {
-    if (!seen || !(std::abs(seen->log_ratio) > thresholds::kClearSigmas * seen->standard_error)) return;
-    const Bend bend{seen->log_ratio, share * std::abs(seen->log_ratio), where};
-    if (!largest || bend.error > largest->error) largest = bend;
-  };
-  add(ramp_bend(blocks), 0.5, "from start to end");
-  add(late_bend(blocks), blocks.level().reloading ? 1.0 : 0.5, "over their second half");
-  return largest;
 }
 
 StiffnessFindings stiffness_findings(const Recording& recording, const TierFits& fits) {

@@ -16,6 +16,19 @@ namespace slipfit::fit {
 /// notes, and a warning.
 void state_trend(const TrendFindings& trend, const Conditions& conditions, Findings& findings);
 
+/// A bend of the ramps, what k may be off by because of it, and where it is.
+struct Bend {
+  double log_ratio = 0.0;
+  double error = 0.0;  ///< of ln k
+  const char* where = "";
+};
+
+/// Returns the bend that moves k most; the result is empty where none is clear. The slope of a bent ramp depends on the
+/// part that is used, by half of the difference between its two halves. Creep before a slip flattens a stick, and a
+/// rise of the force after a slip steepens its beginning: where a rise is fitted, it takes up part of the creep, and k
+/// may be wrong by all of the bend in the second half of the sticks.
+std::optional<Bend> bend_of(const BlockFit& blocks);
+
 /// The average of the sensor that a sweep found.
 std::optional<FittedAverage> found_average(const FitResult& result);
 

@@ -120,7 +120,16 @@ bool within_own_errors(const VectorXd& residuals, const VectorXd& variances) {
 struct Line {
   double slope = 0.0;
   double slope_error = 0.0;  ///< by the residuals; 0 for two points
+  double explained = 0.0;    ///< share of the variance of the values
   VectorXd residuals;
+
+  /// Returns the odds of the line against values that scatter around their mean, for a slope that has the sign that the
+  /// line has, at even odds beforehand and with as much knowledge of the slope beforehand as one value gives (Zellner's
+  /// g prior with g = n). Even where there are two values. docs/model.md (20c)
+  [[nodiscard]] double odds() const {
+    const auto n = static_cast<double>(residuals.size());
+    return std::pow(1.0 + n, 0.5 * n - 1.0) * std::pow(1.0 + n * (1.0 - explained), 0.5 - 0.5 * n);
+  }
 };
 
 Line line_over(VectorXd log_speeds, const VectorXd& values) {
@@ -129,6 +138,8 @@ Line line_over(VectorXd log_speeds, const VectorXd& values) {
   line.slope = log_speeds.dot(values) / log_speeds.squaredNorm();
   line.residuals = values.array() - values.mean() - line.slope * log_speeds.array();
   const double freedom = static_cast<double>(values.size()) - 2.0;
+  const double variance = (values.array() - values.mean()).square().sum();
+  if (variance > 0.0) line.explained = 1.0 - line.residuals.squaredNorm() / variance;
   if (freedom > 0.0) {
     line.slope_error = std::sqrt(line.residuals.squaredNorm() / freedom / log_speeds.squaredNorm());
   }
@@ -307,9 +318,9 @@ StaticFriction static_friction_of(const SweepSolution& solution) {
   if (solution.sweep.sharing.difference || !solution.can_show_trend()) return std::nullopt;
   const Line line = line_over(speeds, differences);
   if (!(line.slope < 0.0)) return std::nullopt;
-  const double freedom = static_cast<double>(differences.size()) - 2.0;
-  const double least = t_quantile(freedom, 1.0 - thresholds::kAgeingChance) * line.slope_error;
-  if (!(-line.slope > least) && !within_own_errors(line.residuals, variances_of(solution))) return std::nullopt;
+  if (!(line.odds() > 1.0) && !within_own_errors(line.residuals, variances_of(solution))) {
+    return std::nullopt;
+  }
   return cutoff_of(LinesOverSticks(solution));
 }
 

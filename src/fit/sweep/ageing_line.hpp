@@ -81,7 +81,7 @@ struct AgeingLine {
 AgeingLine ageing_line(const SweepSolution& solution, const AgeingCutoff& cutoff);
 
 /// Ages where recordings have each their own static friction and it falls with ln V: along a line within their own
-/// errors, or by more than chance (fewer than one sweep of 100 without ageing is taken for one that ages).
+/// errors, or along one that is more likely than scatter around their mean. docs/model.md (20c)
 StaticFriction static_friction_of(const SweepSolution& solution);
 
 /// Returns what the sweep shows of static friction outside its speeds. Where the recordings differ, the trend of ln(F_s
