@@ -12,7 +12,7 @@ motion (default for recordings)
     interval (4 standard errors) and 2 %. extra: terms taken (average T_b, D_c, rise A, k that changes) that the scene does not have.
 sweeps (default for sweeps)
     fit: sweeps that can be predicted from. bands: spacings at 2 and 4 times the fastest recording inside their interval; half: median
-    half-width (percent); none: no interval; wrong: off by more than twice a half-width below 25 %; silent: of those, without a warning. V_c:
+    half-width (percent); off: median of |spacing / truth - 1| (percent), with an interval or without; none: no interval; wrong: off by more than twice a half-width below 25 %; silent: of those, without a warning. V_c:
     inside its interval; bracket: bounds of V_c that hold. warned: with any warning. named, alarm: warnings `recording_disagrees` that name a
     recording that is wrong, and one that is not. se k, se dF: relative standard error, half-width (percent). k ... t_c: intervals that contain
     the truth, of the sweeps that call it identified or conditional (B, t_c: of all that give one). audit: pairs that contradict themselves.
@@ -139,7 +139,7 @@ MOTION = {"verdict": share, **{f"{name} {what}": total if what == "abs" else sha
 
 OF_SWEEPS = {"stiffness_N_per_m": "k", "natural_frequency_rad_per_s": "w_n", "damping_ratio": "zeta", "friction_difference_N": "dF",
              "mass_kg": "m", "ageing_N": "B", "ageing_time_s": "t_c"}
-SWEEPS = {"fit": total, "bands": share, "half": median, "none": total, "wrong": total, "silent": total, "V_c": share, "bracket": share,
+SWEEPS = {"fit": total, "bands": share, "half": median, "off": median, "none": total, "wrong": total, "silent": total, "V_c": share, "bracket": share,
           "warned": total, "named": total, "alarm": total, "se k": median, "se dF": median, **dict.fromkeys(OF_SWEEPS.values(), share),
           "audit": share}
 
@@ -162,6 +162,8 @@ def add_bands(row, prediction, truth, warned):
         true, spacing = expected["spacing_m"], found["periodic_displacement_m"]
         if not true:
             continue
+        if spacing["value"]:
+            row.add("off", 100 * abs(spacing["value"] / true - 1))
         row.add("none", int(not spacing["ci95"]))
         if not spacing["ci95"]:
             continue

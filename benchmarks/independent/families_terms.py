@@ -5,6 +5,7 @@ import math
 from scenes import PARAMETERS, Scene, draw_rig, families, np, truth_of
 
 FINE = 8  # steps of the simulator in one of the recording
+FINER = 60  # where a slip has few samples
 
 
 def _log_uniform(rng, low, high):
@@ -25,10 +26,12 @@ def _release(omega, zeta, force, step, seconds):
     return force * np.exp(-zeta * omega * t) * (np.cos(damped * omega * t) + zeta / damped * np.sin(damped * omega * t))
 
 
-def _scene(rng, average=False, weakens=False, reloads=False, rings=None, relaxes=False, shortens=False):
-    """`rings`: by which w_n of the slips differs from that of the ring-down after a release at the end; None: no release."""
-    rig = draw_rig(rng, per_slip=(20, 60), ratio=(5, 25))
-    rig.step /= FINE
+def _scene(rng, average=False, weakens=False, reloads=False, rings=None, relaxes=False, shortens=False, coarse=False):
+    """`rings`: by which w_n of the slips differs from that of the ring-down after a release at the end; None: no release. `coarse`: 2 to 6 samples a slip,
+    as loggers of testing machines take."""
+    rig = draw_rig(rng, per_slip=(2, 6) if coarse else (20, 60), ratio=(5, 25))
+    fine = FINER if coarse else FINE
+    rig.step /= fine
     if weakens:
         rig.model.weakening_length = _log_uniform(rng, 0.02, 0.6) * rig.drop / rig.model.stiffness
     if reloads:
@@ -48,9 +51,9 @@ def _scene(rng, average=False, weakens=False, reloads=False, rings=None, relaxes
         force = np.concatenate([force, ring])
         time_s = np.arange(len(force)) * rig.step
     if average:
-        time_s, force = _averaged(time_s, force, window_s, FINE)
+        time_s, force = _averaged(time_s, force, window_s, fine)
     else:
-        time_s, force = time_s[::FINE], force[::FINE]
+        time_s, force = time_s[::fine], force[::fine]
     stretch = (time_s[0], min(time_s[-1], end_s))
     truth = truth_of(rig, motion.slips, stretch, PARAMETERS)
     truth["slips_s"] = [slip - time_s[0] for slip in truth["slips_s"]]
@@ -87,5 +90,7 @@ FAMILIES = families(
     rings_otherwise=lambda rng: _scene(rng, rings=rng.uniform(1.15, 2.0)),  # another mode than that of the slips rings after the release
     shortens=lambda rng: _scene(rng, shortens=True),  # a line of which the drive takes or gives some: k changes along the path
     shortens_average=lambda rng: _scene(rng, shortens=True, average=True),
+    coarse_average=lambda rng: _scene(rng, average=True, coarse=True),
+    coarse_average_reloads=lambda rng: _scene(rng, average=True, reloads=True, coarse=True),
     relaxes=lambda rng: _scene(rng, relaxes=True),  # a standard linear solid in place of the spring, and the damper
 )

@@ -209,6 +209,16 @@ def drifting(rng):
     return sweep
 
 
+def scattered(rng, bend=None, scatter=(0.03, 0.2)):
+    """Every recording finds its own static friction, as on another part of the surface; few recordings."""
+    sweep = draw(rng, int(rng.integers(3, 6)), rng.uniform(4, 8), bend)
+    sweep.drop = sweep.runs[0].drop
+    spread = np.exp(rng.uniform(*np.log(scatter)))
+    for run in sweep.runs:
+        run.drop *= np.exp(spread * rng.standard_normal())
+    return sweep
+
+
 def zeros(rng):
     sweep = draw(rng, 5, 8)
     for run in sweep.runs:
@@ -389,7 +399,7 @@ def parameters_of(sweep, sound):
 
 
 FAMILIES = families(
-    exponential_strong, age_terms, trended, grown, loose, averaging, drifting, zeros, wrong_loads, adhesion, undersampled, relaxing, flash, depth,
+    exponential_strong, age_terms, trended, grown, loose, averaging, drifting, scattered, zeros, wrong_loads, adhesion, undersampled, relaxing, flash, depth,
     depth_measured, other_material, swapped,
     coulomb5=lambda rng: draw(rng, 5, 8),
     coulomb3=lambda rng: draw(rng, 3, rng.uniform(4, 8)),
@@ -409,6 +419,7 @@ FAMILIES = families(
     two_coulomb=lambda rng: draw(rng, 2, rng.uniform(4, 8)),
     narrow=lambda rng: draw(rng, 4, 1.2, ageing(rng)),
     near_critical=lambda rng: draw(rng, 6, rng.uniform(20, 40), zeta=(0.1, 0.3), fastest=(1.0, 2.5)),  # the fastest recordings are near the end of stick-slip and above it
+    age_loosely=lambda rng: scattered(rng, ageing(rng, cut_off=(-0.7, 0.3), share=(0.05, 0.2)), scatter=(0.01, 0.1)),
     grown_loosely=lambda rng: grown(rng, rng.uniform(0.005, 0.03)),
     rings=lambda rng: _rings(rng, 1.0),
     rings_otherwise=lambda rng: _rings(rng, rng.uniform(1.4, 2.0)),
