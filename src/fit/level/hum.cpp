@@ -187,14 +187,35 @@ struct Prominence {
   [[nodiscard]] double of(double amplitude_squared) const { return 0.5 * amplitude_squared * used * used / square; }
 };
 
-/// A line that has the same phase at the onset of every slip cannot be distinguished from the shape of the cycles, nor
-/// from what the fit makes of it: the mean of the unit vectors of its phases there is long.
-bool is_in_step(const BlockFit& fit, double frequency_Hz) {
+/// Mean of the unit vectors of a line's phases at the onsets of the slips, up to which it has nothing to do with them:
+/// exceeded with exp(-0.25 n) by chance with n cycles.
+constexpr double kNoPhase = 0.5;
+
+/// Length of the mean of the unit vectors of a line's phases at the onsets of the slips: 1 where all are equal, 1 /
+/// sqrt(cycles) where they have nothing to do with the slips.
+double phase_coherence(const BlockFit& fit, double frequency_Hz) {
   std::complex<double> sum;
   for (std::size_t i = 0; i < fit.size(); ++i) {
     sum += std::polar(1.0, 2.0 * std::numbers::pi * frequency_Hz * (fit.state(i).onset_s - fit.state(0).onset_s));
   }
-  return std::abs(sum) > thresholds::kInStep * static_cast<double>(fit.size());
+  return std::abs(sum) / static_cast<double>(fit.size());
+}
+
+/// A line that has the same phase at the onset of every slip cannot be distinguished from the shape of the cycles.
+bool is_in_step(const BlockFit& fit, double frequency_Hz) {
+  return phase_coherence(fit, frequency_Hz) > thresholds::kInStep;
+}
+
+/// Returns whether sampling at this rate shows a frequency in step with the slips where the line is. Such frequencies
+/// are harmonics above the Nyquist frequency. Those from farther than twice the rate are never the strongest.
+bool may_be_folded(const BlockFit& fit, double frequency_Hz, double rate_Hz) {
+  constexpr int kFolds = 2;
+  for (int fold = 1; fold <= kFolds; ++fold) {
+    for (const double sign : {-1.0, 1.0}) {
+      if (phase_coherence(fit, fold * rate_Hz + sign * frequency_Hz) > kNoPhase) return true;
+    }
+  }
+  return false;
 }
 
 /// Computes the spectrum of the rest. Each of several runs has a window of its own, without which a line would leak
@@ -203,7 +224,8 @@ class RestSpectrum {
  public:
   explicit RestSpectrum(const EvenRest& rest) {
     const std::size_t length = signal::good_length(rest.values.size());
-    bin_Hz_ = 1.0 / (rest.step_s * static_cast<double>(length));
+    rate_Hz_ = 1.0 / rest.step_s;
+    bin_Hz_ = rate_Hz_ / static_cast<double>(length);
     double samples = 0.0;
     for (const CycleRun& run : rest.runs) samples += run.size();
     reach_Hz_ = 2.0 * static_cast<double>(rest.runs.size()) / (samples * rest.step_s);
@@ -218,6 +240,8 @@ class RestSpectrum {
   [[nodiscard]] std::optional<double> strongest(double lowest_Hz, double resolution_Hz) const {
     return signal::strongest_line(power_, bin_Hz_, resolution_Hz, lowest_Hz);
   }
+  /// Returns the rate of the samples.
+  [[nodiscard]] double rate_Hz() const { return rate_Hz_; }
   /// Distance up to which the window of a run spreads a line.
   [[nodiscard]] double reach_Hz() const { return reach_Hz_; }
   /// Returns the largest power at a distance of at most `distance_Hz` from the frequency.
@@ -242,6 +266,7 @@ class RestSpectrum {
   }
 
   std::vector<double> power_;
+  double rate_Hz_ = 0.0;
   double bin_Hz_ = 0.0;
   double reach_Hz_ = 0.0;
 };
@@ -330,12 +355,16 @@ class NewLines {
   }
 
  private:
-  /// The strongest line of the rest. Among few slips this is chance, and between runs of cycles lines have images.
+  /// The strongest line of the rest where the slips have no line: with another phase at the onset of each. Among few
+  /// slips this is chance, and between runs of cycles lines have images.
   [[nodiscard]] std::optional<double> line_in_residuals(const BlockFit& fit, const Rest& rest) const {
     if (fit.size() < thresholds::kFewestOfLine || rest.runs().size() > 1) return std::nullopt;
     const double span_s = fit.state(fit.size() - 1).onset_s - fit.state(0).onset_s;
     const double slips_Hz = static_cast<double>(fit.size() - 1) / span_s;
-    return spectrum_.strongest(slips_Hz, resolution_Hz_);
+    const std::optional<double> line_Hz = spectrum_.strongest(slips_Hz, resolution_Hz_);
+    if (!line_Hz || phase_coherence(fit, *line_Hz) > kNoPhase) return std::nullopt;
+    if (may_be_folded(fit, *line_Hz, spectrum_.rate_Hz())) return std::nullopt;
+    return line_Hz;
   }
   /// The mains wanders.
   [[nodiscard]] double width_Hz(double frequency_Hz) const {

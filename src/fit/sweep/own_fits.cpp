@@ -81,7 +81,7 @@ class OwnFitter {
   }
 
   /// Returns the draft of a recording. A rise that is known only behind an average has the length that it has there.
-  [[nodiscard]] std::optional<DampedFit> own_draft(const FitInput& input) const {
+  [[nodiscard]] static std::optional<DampedFit> own_draft(const FitInput& input) {
     std::optional<RiseDraft> draft = draft_with_rise(input);
     if (!draft) return std::nullopt;
     const std::optional<DampedFit> behind = rise_behind_average(input, *draft);
