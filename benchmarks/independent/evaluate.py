@@ -12,10 +12,11 @@ motion (default for recordings)
     interval (4 standard errors) and 2 %. extra: terms taken (average T_b, D_c, rise A, k that changes) that the scene does not have.
 sweeps (default for sweeps)
     fit: sweeps that can be predicted from. bands: spacings at 2 and 4 times the fastest recording inside their interval; half: median
-    half-width (percent); off: median of |spacing / truth - 1| (percent), with an interval or without; none: no interval; wrong: off by more than twice a half-width below 25 %; silent: of those, without a warning. V_c:
-    inside its interval; bracket: bounds of V_c that hold. warned: with any warning. named, alarm: warnings `recording_disagrees` that name a
-    recording that is wrong, and one that is not. se k, se dF: relative standard error, half-width (percent). k ... t_c: intervals that contain
-    the truth, of the sweeps that call it identified or conditional (B, t_c: of all that give one). audit: pairs that contradict themselves.
+    half-width (percent); off: median of |spacing / truth - 1| (percent), with an interval or without; none: no interval; wrong: off by more than
+    twice a half-width below 25 %; silent: of those, without a warning. V_c: inside its interval; bracket: bounds of V_c that hold. warned:
+    with any warning. named, alarm: warnings `recording_disagrees` that name a recording that is wrong, and one that is not. se k, se dF:
+    relative standard error, half-width (percent). k ... t_c: intervals that contain the truth, of the sweeps that call it identified or
+    conditional (B, t_c: of all that give one). audit: pairs that contradict themselves.
 trends
     fits: fitted as stick-slip. k, w_n, zeta: inside the interval; ident.: of these, identified. off: median of |k / truth - 1|, half: median
     half-width of k, percent. F_s: intervals that contain what F_s was at the start, in the middle or at the end. reading: of the trend.

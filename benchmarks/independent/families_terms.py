@@ -27,8 +27,8 @@ def _release(omega, zeta, force, step, seconds):
 
 
 def _scene(rng, average=False, weakens=False, reloads=False, rings=None, relaxes=False, shortens=False, coarse=False):
-    """`rings`: by which w_n of the slips differs from that of the ring-down after a release at the end; None: no release. `coarse`: 2 to 6 samples a slip,
-    as loggers of testing machines take."""
+    """`rings`: by which w_n of the slips differs from that of the ring-down after a release at the end; None: no release.
+    `coarse`: 2 to 6 samples a slip, as loggers of testing machines take."""
     rig = draw_rig(rng, per_slip=(2, 6) if coarse else (20, 60), ratio=(5, 25))
     fine = FINER if coarse else FINE
     rig.step /= fine

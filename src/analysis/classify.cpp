@@ -53,7 +53,7 @@ bool is_release(const Recording& recording, const Segmentation& segmentation) {
   return first_s > thresholds::kSpanShare * recording.duration_s() && last_s - first_s < 0.3 * recording.duration_s();
 }
 
-/// As many falls as slips are needed are larger than what noise makes of a steady force.
+/// Returns whether as many falls as slips are needed are larger than what noise makes of a steady force.
 bool slips_stand_out_of_noise(const Segmentation& segmentation) {
   const auto stands_out = [&](const DetectedSlip& slip) {
     return slip.drop() >= thresholds::kNoiseDrop * segmentation.noise;

@@ -382,9 +382,9 @@ inline constexpr double kSureHum = 20.0;
 /// Power of a line at another frequency, as kSureHum. [1; derived: 1e-9 by chance in white noise of a million bins]
 inline constexpr double kSureLine = 70.0;
 
-/// Mean of the unit vectors of a line's phases at the onsets of the slips, above which it is in step with them.
-/// [1; derived: exp(-0.81 n) by chance with n cycles]
-inline constexpr double kInStep = 0.9;
+/// Mean of the unit vectors of a line's phases at the onsets of the slips, up to which it has nothing to do with them.
+/// [1; derived: exceeded with exp(-0.25 n) by chance with n cycles]
+inline constexpr double kNoPhase = 0.5;
 
 /// Share of the power of a line that the residuals keep without what repeats from cycle to cycle, up to which the line
 /// belongs to the shape of the cycles. [1; convention: half]
@@ -397,6 +397,10 @@ inline constexpr std::size_t kFewestOfLine = 16;
 /// Power of a line over that of the strongest in the same residuals, below which it may be an image of it. [1;
 /// calibrated: images are below 0.022 for 60 simulated recordings with hum]
 inline constexpr double kHumImage = 0.1;
+
+/// Mean of the unit vectors of a line's phases at the onsets of the slips, above which it is in step with them.
+/// [1; derived: exp(-0.81 n) by chance with n cycles]
+inline constexpr double kInStep = 0.9;
 
 /// Power of fitted hum over that of the residuals, above which outliers are looked for again. [1; convention]
 inline constexpr double kBlurringHum = 0.5;

@@ -250,7 +250,7 @@ TEST_CASE("ageing: three recordings whose static friction scatters predict by it
   REQUIRE(sweep.fit);
   REQUIRE(sweep.fit->result.estimate);
   REQUIRE(sweep.fit->result.estimate->ageing);
-  // The mean static friction of the three would make the spacing at 0.1 m/s 15 % too large.
+  // Not by the mean static friction of the three, which is that of longer sticks.
   const Estimate spacing = predicted({*sweep.fit->result.estimate, true, std::nullopt}, 0.1).periodic_displacement_m;
   CHECK(spacing.value.value_or(0.0) == Approx(test::spacing_m(truth, 0.1)).epsilon(0.08));
   CHECK(holds(spacing, test::spacing_m(truth, 0.1)));

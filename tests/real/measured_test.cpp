@@ -74,6 +74,35 @@ std::vector<std::map<std::string, std::string>> table(const std::filesystem::pat
   return rows;
 }
 
+/// Recordings of the sled of 77 or 232 g at these speeds in mm/min, every so many samples. Empty where they are absent.
+std::vector<SweepEntry> printed_plastic(int mass_g, const std::vector<int>& speeds_mm_min, std::size_t every = 1) {
+  std::vector<SweepEntry> entries;
+  for (const int speed_mm_min : speeds_mm_min) {
+    const std::string name = fmt::format("fdm_{}g_{}mm_min.csv", mass_g, speed_mm_min);
+    std::optional<Recording> recording = read_file("real/fdm/" + name, speed_mm_min / 60000.0);
+    if (!recording) return {};
+    std::vector<std::size_t> kept;
+    for (std::size_t i = 0; i < recording->size(); i += every) kept.push_back(i);
+    entries.push_back({name, recording->selected(kept)});
+  }
+  return entries;
+}
+
+/// The authors' own spacings of a sled, in m, by the speed in mm/min.
+std::map<int, double> published_spacings_m(int mass_g) {
+  std::map<int, double> published_m;
+  for (auto& row : table(kData / "real/fdm/published_spacing.csv")) {
+    if (std::stoi(row["mass_g"]) == mass_g)
+      published_m[std::stoi(row["speed_mm_min"])] = 1e-3 * std::stod(row["published_spacing_mm"]);
+  }
+  return published_m;
+}
+
+Estimate predicted_spacing_m(const SweepAnalysis& analysis, int speed_mm_min) {
+  const std::vector<double> speed{speed_mm_min / 60000.0};
+  return predict_at({*analysis.fit->result.estimate, true, std::nullopt}, speed).rows.front().periodic_displacement_m;
+}
+
 }  // namespace
 
 TEST_CASE("paper on paper, slow: stick-slip with the published stiffness") {
@@ -133,26 +162,15 @@ TEST_CASE(
 }
 
 TEST_CASE("printed plastic: slow recordings predict the spacing at speeds up to 2.7 times as fast") {
-  std::map<int, double> published_m;
-  for (auto& row : table(kData / "real/fdm/published_spacing.csv")) {
-    if (row["mass_g"] == "77")
-      published_m[std::stoi(row["speed_mm_min"])] = 1e-3 * std::stod(row["published_spacing_mm"]);
-  }
-  std::vector<SweepEntry> entries;
-  for (const int speed_mm_min : {30, 50, 100, 150}) {
-    const std::string name = "fdm_77g_" + std::to_string(speed_mm_min) + "mm_min.csv";
-    std::optional<Recording> recording = read_file("real/fdm/" + name, speed_mm_min / 60000.0);
-    if (!recording) return;
-    entries.push_back({name, *std::move(recording)});
-  }
+  std::map<int, double> published_m = published_spacings_m(77);
+  const std::vector<SweepEntry> entries = printed_plastic(77, {30, 50, 100, 150});
+  if (entries.empty()) return;
   const SweepAnalysis analysis = analyze_sweep(entries);
   REQUIRE(analysis.fit);
   REQUIRE(analysis.fit->result.estimate);
   for (const int speed_mm_min : {200, 300, 400}) {
     CAPTURE(speed_mm_min);
-    const std::vector<double> speed{speed_mm_min / 60000.0};
-    const Prediction prediction = predict_at({*analysis.fit->result.estimate, true, std::nullopt}, speed);
-    const Estimate& spacing_m = prediction.rows.front().periodic_displacement_m;
+    const Estimate spacing_m = predicted_spacing_m(analysis, speed_mm_min);
     REQUIRE(spacing_m.ci95);
     CHECK(spacing_m.ci95->low < published_m[speed_mm_min]);
     CHECK(published_m[speed_mm_min] < spacing_m.ci95->high);
@@ -161,30 +179,8 @@ TEST_CASE("printed plastic: slow recordings predict the spacing at speeds up to 
   }
 }
 
-namespace {
-
-/// The sled of 77 or 232 g at these speeds in mm/min, every so many samples. Empty where the recordings are absent.
-std::vector<SweepEntry> printed_plastic(int mass_g, const std::vector<int>& speeds_mm_min, std::size_t every = 1) {
-  std::vector<SweepEntry> entries;
-  for (const int speed_mm_min : speeds_mm_min) {
-    const std::string name = fmt::format("fdm_{}g_{}mm_min.csv", mass_g, speed_mm_min);
-    std::optional<Recording> recording = read_file("real/fdm/" + name, speed_mm_min / 60000.0);
-    if (!recording) return {};
-    std::vector<std::size_t> kept;
-    for (std::size_t i = 0; i < recording->size(); i += every) kept.push_back(i);
-    entries.push_back({name, recording->selected(kept)});
-  }
-  return entries;
-}
-
-}  // namespace
-
 TEST_CASE("printed plastic: any three of the slow recordings predict faster ones") {
-  std::map<int, double> published_m;
-  for (auto& row : table(kData / "real/fdm/published_spacing.csv")) {
-    if (row["mass_g"] == "232")
-      published_m[std::stoi(row["speed_mm_min"])] = 1e-3 * std::stod(row["published_spacing_mm"]);
-  }
+  std::map<int, double> published_m = published_spacings_m(232);
   const std::vector<int> speeds = GENERATE(std::vector<int>{50, 100, 150}, std::vector<int>{30, 100, 150},
                                            std::vector<int>{30, 50, 150}, std::vector<int>{30, 50, 100});
   const std::vector<SweepEntry> entries = printed_plastic(232, speeds);
@@ -194,9 +190,7 @@ TEST_CASE("printed plastic: any three of the slow recordings predict faster ones
   REQUIRE(analysis.fit->result.estimate);
   for (const int speed_mm_min : {200, 300}) {
     CAPTURE(speeds, speed_mm_min);
-    const std::vector<double> speed{speed_mm_min / 60000.0};
-    const Prediction prediction = predict_at({*analysis.fit->result.estimate, true, std::nullopt}, speed);
-    const Estimate& spacing_m = prediction.rows.front().periodic_displacement_m;
+    const Estimate spacing_m = predicted_spacing_m(analysis, speed_mm_min);
     // By the mean static friction of the three, up to 55 % off
     CHECK(spacing_m.value.value_or(0.0) == Approx(published_m[speed_mm_min]).epsilon(0.2));
   }

@@ -187,10 +187,6 @@ struct Prominence {
   [[nodiscard]] double of(double amplitude_squared) const { return 0.5 * amplitude_squared * used * used / square; }
 };
 
-/// Mean of the unit vectors of a line's phases at the onsets of the slips, up to which it has nothing to do with them:
-/// exceeded with exp(-0.25 n) by chance with n cycles.
-constexpr double kNoPhase = 0.5;
-
 /// Length of the mean of the unit vectors of a line's phases at the onsets of the slips: 1 where all are equal, 1 /
 /// sqrt(cycles) where they have nothing to do with the slips.
 double phase_coherence(const BlockFit& fit, double frequency_Hz) {
@@ -212,7 +208,7 @@ bool may_be_folded(const BlockFit& fit, double frequency_Hz, double rate_Hz) {
   constexpr int kFolds = 2;
   for (int fold = 1; fold <= kFolds; ++fold) {
     for (const double sign : {-1.0, 1.0}) {
-      if (phase_coherence(fit, fold * rate_Hz + sign * frequency_Hz) > kNoPhase) return true;
+      if (phase_coherence(fit, fold * rate_Hz + sign * frequency_Hz) > thresholds::kNoPhase) return true;
     }
   }
   return false;
@@ -362,7 +358,7 @@ class NewLines {
     const double span_s = fit.state(fit.size() - 1).onset_s - fit.state(0).onset_s;
     const double slips_Hz = static_cast<double>(fit.size() - 1) / span_s;
     const std::optional<double> line_Hz = spectrum_.strongest(slips_Hz, resolution_Hz_);
-    if (!line_Hz || phase_coherence(fit, *line_Hz) > kNoPhase) return std::nullopt;
+    if (!line_Hz || phase_coherence(fit, *line_Hz) > thresholds::kNoPhase) return std::nullopt;
     if (may_be_folded(fit, *line_Hz, spectrum_.rate_Hz())) return std::nullopt;
     return line_Hz;
   }

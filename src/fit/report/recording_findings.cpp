@@ -148,8 +148,7 @@ std::optional<Bend> bend_of(const BlockFit& blocks) {
   std::optional<Bend> largest;
   const auto add = [&](const std::optional<RampBend>& seen, double share, const char* where) {
     if (!seen || !(std::abs(seen->log_ratio) > thresholds::kClearSigmas * seen->standard_error)) return;
-    constexpr double kMost = 1.0;  // of ln k: a stick whose slope changes by all of it has none
-    const Bend bend{seen->log_ratio, std::min(kMost, share * std::abs(seen->log_ratio)), where};
+    const Bend bend{seen->log_ratio, share * std::abs(seen->log_ratio), where};
     if (!largest || bend.error > largest->error) largest = bend;
   };
   add(ramp_bend(blocks), 0.5, "from start to end");

@@ -69,6 +69,12 @@ std::vector<StickBin> straightened(std::vector<StickBin> bins, const BlockFit& f
   return bins;
 }
 
+/// Returns whether both parts of a stick have samples enough for a slope.
+bool have_slopes(const StickBin& early, const StickBin& late) {
+  constexpr double kFewest = 2.0;
+  return early.count >= kFewest && late.count >= kFewest;
+}
+
 /// Two parts of a stick, the earlier first, without hum and without the rise after a slip.
 struct Parts {
   StickBin early;
@@ -84,7 +90,7 @@ std::optional<RampBend> bend_between(const BlockFit& fit, const PartsOf& parts_o
   std::vector<std::pair<double, double>> cycles;
   for (std::size_t i = 0; i < fit.size(); ++i) {
     auto [early, late] = parts_of(i);
-    if (late.count < 2.0 || early.count < 2.0) continue;
+    if (!have_slopes(early, late)) continue;
     late.slope -= level_slope(fit, i, late.time_s);
     early.slope -= level_slope(fit, i, early.time_s);
     const double weight = 1.0 / (1.0 / late.time_spread + 1.0 / early.time_spread);
@@ -146,7 +152,7 @@ std::optional<RampDrift> drift_in_ramps(const BlockFit& fit) {
   for (std::size_t i = 0; i < fit.size(); ++i) {
     const StickBin late = merge(straightened(fit.data(i).bins_before, fit, i));
     const StickBin early = merge(straightened(fit.data(i).bins_after, fit, i));
-    if (late.count < 2.0 || early.count < 2.0) continue;
+    if (!have_slopes(early, late)) continue;
     weight.push_back(late.time_spread + early.time_spread);
     const auto mean = [&](double of_late, double of_early) {
       return (late.time_spread * of_late + early.time_spread * of_early) / weight.back();

@@ -11,7 +11,8 @@ namespace slipfit::fit {
 struct RiseDraft {
   /// Its sticks rise more steeply after a slip (level/level_model.hpp) where the data determine the rise.
   DampedFit fit;
-  /// With a rise that explains more, but that the data do not determine without more terms. `fit` has none then.
+  /// The same fit with a rise that explains more, but that the data do not determine without more terms. `fit` has
+  /// none then.
   std::optional<DampedFit> unproven{};
   RampBend bend{};  ///< of the sticks of `fit`, where `unproven` has a value
 };

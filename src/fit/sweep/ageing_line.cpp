@@ -318,9 +318,7 @@ StaticFriction static_friction_of(const SweepSolution& solution) {
   if (solution.sweep.sharing.difference || !solution.can_show_trend()) return std::nullopt;
   const Line line = line_over(speeds, differences);
   if (!(line.slope < 0.0)) return std::nullopt;
-  if (!(line.odds() > 1.0) && !within_own_errors(line.residuals, variances_of(solution))) {
-    return std::nullopt;
-  }
+  if (!(line.odds() > 1.0) && !within_own_errors(line.residuals, variances_of(solution))) return std::nullopt;
   return cutoff_of(LinesOverSticks(solution));
 }
 
