@@ -112,6 +112,16 @@ std::vector<std::string> with_quantities_joined(const std::vector<std::string>& 
   return joined;
 }
 
+/// Refuses "--json out.json": the flag would leave out.json as one more recording, which is not found.
+void check_json_flag(const std::vector<std::string>& words) {
+  const auto flag = std::ranges::adjacent_find(words, [](const std::string& word, const std::string& next) {
+    std::error_code error;
+    return word == "--json" && next.ends_with(".json") && !std::filesystem::exists(next, error);
+  });
+  if (flag == words.end()) return;
+  refuse("--json takes no file: to write the document to {0}, give --json --out {0}", *std::next(flag));
+}
+
 struct Command {
   std::string_view name;
   void (*add)(CLI::App& program, const std::string& typed_line);
@@ -203,6 +213,7 @@ void run(CLI::App& program, std::vector<std::string> words, const std::string& t
   if (is_file && !is_command(words[1])) words.insert(words.begin() + 1, "fit");  // slipfit REC
   add_commands(program, words.size() > 1 ? words[1] : "", typed_line);
   check_command(program, words.size() > 1 ? words[1] : "");
+  check_json_flag(words);
   words = with_quantities_joined({words.begin() + std::min<std::ptrdiff_t>(1, std::ssize(words)), words.end()});
   std::reverse(words.begin(), words.end());  // as CLI11 takes them
   program.parse(std::move(words));

@@ -95,7 +95,9 @@ Result<double> parse_quantity(std::string_view text, Dimension dimension) {
   if (error != std::errc() || !std::isfinite(value)) return bad_number;
   rest = trim(rest.substr(static_cast<std::size_t>(end - rest.data())));
   if (rest.empty()) return value;
-  if (rest.front() == ',' || rest.front() == ';') return bad_number;  // "0,5": a decimal comma is not guessed at here
+  if (rest.front() == ',')
+    return Error{"bad_number", join({"'", shown(text), "' has a comma: write the decimal sign as a point"})};
+  if (rest.front() == ';') return bad_number;
   const auto unit = rest.front() == '/' ? parse_unit(join({"1", rest}), dimension) : parse_unit(rest, dimension);
   if (!unit) return unit.error();
   const double value_SI = value * unit.value().scale;

@@ -24,12 +24,21 @@ TEST_CASE("a file in place of a command is fitted, and symbols name parameters")
   CHECK(fitted.out == run_slipfit({"fit", file, "--speed", "10mm/s", "--fix", "damping_ratio=0.05", "--json"}).out);
 }
 
+TEST_CASE("a file behind --json is no recording") {
+  const test::TemporaryFolder folder;
+  const std::string file = folder.file("run.csv", test::simulated_csv("5"));
+  check_refused({"fit", file, "--speed", "10mm/s", "--json", "out.json"}, "give --json --out out.json");
+  const std::string model = folder.file("fit.json", run_slipfit({"fit", file, "--speed", "10mm/s", "--json"}).out);
+  CHECK(run_slipfit({"predict", "--speeds", "20mm/s", "--json", model}).exit_code == 0);
+}
+
 TEST_CASE("a speed that cannot be a driving speed is refused") {
   const std::string file = "no-such-recording.csv";
   for (const std::string command : {"analyze", "fit"}) {
     check_refused({command, file, "--speed", "-1"}, "not above zero");
     check_refused({command, file, "--speed", "-1mm/s"}, "not above zero");
     check_refused({command, file, "--speed", "fast"}, "fast");
+    check_refused({command, file, "--speed", "0,01"}, "write the decimal sign as a point");
     check_refused({command, file, "--speed", "nan"}, "nan");
     check_refused({command, file, "--speed", "inf"}, "inf");
     check_refused({command, file, "--speed", ""}, "--speed");

@@ -182,6 +182,8 @@ TEST_CASE("a text that is not a finite number is refused as bad_number, a wrong 
     REQUIRE_FALSE(parsed.ok());
     CHECK(parsed.error().code == "bad_number");
   }
+  CHECK(parse_quantity("0,5 mm/s", Dimension::Speed).error().message ==
+        "'0,5 mm/s' has a comma: write the decimal sign as a point");
   for (const std::string text : {"10 N", "10 furlongs/fortnight/s", "3 mm/s extra", "1.2.3"}) {
     CAPTURE(text);
     const auto parsed = parse_quantity(text, Dimension::Speed);
