@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/statistics.hpp"
 #include "core/thresholds.hpp"
 #include "fit/selection/finish.hpp"
 #include "fit/selection/rise.hpp"
@@ -46,12 +47,21 @@ bool explains(const DampedFit& risen, const DampedFit& plain, const RampBend& be
   return is_straight && !is_at_bound(risen.blocks) && gain_of(risen, plain) > thresholds::kTierPrice;
 }
 
+/// The rise over its standard error.
+double sigmas_of_rise(const DampedFit& risen) {
+  return risen.blocks.parameters.values(kReloadForce) / error_of(risen, kReloadForce);
+}
+
+/// Returns whether 0 lies outside of the 95 % interval of the rise: more terms do not make the interval shorter.
+bool may_be_proven(const DampedFit& risen) {
+  return sigmas_of_rise(risen) > kNormalQuantile;
+}
+
 /// Returns whether the data determine A and l without more terms.
 bool is_determined(const FitInput& input, const DampedFit& risen) {
   const double step_m = risen.blocks.scales().speed_m_per_s * input.recording.sample_interval_s();
-  const double rise = risen.blocks.parameters.values(kReloadForce);
   return rise_length_m(risen) >= thresholds::kSlipSamples * step_m &&
-         rise > thresholds::kClearSigmas * error_of(risen, kReloadForce) &&
+         sigmas_of_rise(risen) > thresholds::kClearSigmas &&
          error_of(risen, kReloadLength) < thresholds::kInformativeError;
 }
 
@@ -67,20 +77,20 @@ std::optional<RiseDraft> draft_with_rise(const FitInput& input, const AbortPredi
   const std::vector<Minimum> minima = fitter ? fitter->minima({.rise = true}).found : std::vector<Minimum>();
   if (minima.empty() || !promises(minima.front().blocks, *bend)) return draft;
   const Minimum& best = minima.front();
-  std::optional<DampedFit> risen = fitter->draft(best.blocks);
+  std::optional<DampedFit> risen;
+  if (may_be_proven(fitter->rival_of(best))) risen = fitter->draft(best.blocks);
   if (risen && explains(*risen, draft.fit, *bend) && is_determined(input, *risen)) return RiseDraft{*std::move(risen)};
-  const bool is_open = is_at_bound(best.blocks);
-  const double gain = is_open ? fitter->gain_on_all(best, fitter->plain()) : risen ? gain_of(*risen, draft.fit) : 0.0;
+  const bool is_open = !risen || is_at_bound(best.blocks);
+  const double gain = is_open ? fitter->gain_on_all(best, fitter->plain()) : gain_of(*risen, draft.fit);
   if (!(gain > thresholds::kTierPrice)) return draft;
   draft.fit.rivals.push_back(coordinates_of(is_open ? best.blocks : risen->blocks));
-  draft.unproven = std::move(risen);
+  if (risen && may_be_proven(*risen)) draft.unproven = std::move(risen);
   draft.bend = *bend;
   return draft;
 }
 
 bool proves_rise(const DampedFit& fit, const RiseDraft& draft) {
-  const double rise = fit.blocks.parameters.values(kReloadForce);
-  return explains(fit, draft.fit, draft.bend) && rise > thresholds::kLikelySigmas * error_of(fit, kReloadForce);
+  return explains(fit, draft.fit, draft.bend) && sigmas_of_rise(fit) > thresholds::kLikelySigmas;
 }
 
 std::optional<DampedFit> draft_with_rise_over(double length_m, const FitInput& input, const DampedFit& plain) {
