@@ -20,8 +20,21 @@ namespace {
 constexpr double kSlowest = 1e-6;
 constexpr double kFastest = 300.0;
 
-double speed_unit(const ModelEstimate& model) {
-  return model.natural_frequency_rad_per_s * model.friction_difference_N / model.stiffness_N_per_m;
+struct SpeedRange {
+  double slowest_m_per_s, fastest_m_per_s;
+};
+
+/// Returns the speeds between which ends are sought; empty where they are no numbers above 0.
+std::optional<SpeedRange> searched_speeds(const ModelEstimate& model) {
+  const double unit = model.natural_frequency_rad_per_s * model.friction_difference_N / model.stiffness_N_per_m;
+  const SpeedRange range{kSlowest * unit, kFastest * unit};
+  const bool is_range = range.slowest_m_per_s > 0.0 && std::isfinite(range.fastest_m_per_s);
+  return is_range ? std::optional(range) : std::nullopt;
+}
+
+/// Their geometric mean; the product of two speeds may overflow.
+double between(double low_m_per_s, double high_m_per_s) {
+  return std::sqrt(low_m_per_s) * std::sqrt(high_m_per_s);
 }
 
 /// How sharply ends are found, and by which share of a standard error parameters are moved for derivatives. A cycle on
@@ -40,7 +53,7 @@ struct Bracket {
 
 double refined(const ModelEstimate& model, Bracket bracket, double sharp) {
   while (bracket.slides > (1.0 + sharp) * bracket.sticks) {
-    const double middle = std::sqrt(bracket.sticks * bracket.slides);
+    const double middle = between(bracket.sticks, bracket.slides);
     if (!(middle > bracket.sticks && middle < bracket.slides)) break;
     (sticks_at(model, middle) ? bracket.sticks : bracket.slides) = middle;
   }
@@ -90,9 +103,9 @@ std::optional<Jet> end_with_derivatives(const ModelEstimate& model, double end_m
 class EndsOfDraws {
  public:
   /// `near_m_per_s`: the end of `model`, where the search begins; 0 or infinite where there is none.
-  EndsOfDraws(const ModelEstimate& model, double near_m_per_s)
-      : slowest_(kSlowest * speed_unit(model)),
-        fastest_(kFastest * speed_unit(model)),
+  EndsOfDraws(const ModelEstimate& model, const SpeedRange& range, double near_m_per_s)
+      : slowest_(range.slowest_m_per_s),
+        fastest_(range.fastest_m_per_s),
         near_(std::clamp(near_m_per_s, 2.0 * slowest_, 0.5 * fastest_)) {
     for (const ModelEstimate& draw : draws_of(model)) draws_.push_back({draw, 0.0, HUGE_VAL});
   }
@@ -120,7 +133,7 @@ class EndsOfDraws {
       }
     }
     while (high > (1.0 + kSharpQuantile) * low) {
-      const double middle = std::sqrt(low * high);
+      const double middle = between(low, high);
       (is_above(middle) ? low : high) = middle;
     }
     return low;
@@ -158,8 +171,10 @@ CriticalPoint by_draws(const ModelEstimate& model, const std::string& why, doubl
   constexpr std::size_t kZeta = place_in_model(ParameterId::DampingRatio);
   constexpr double kTail = 0.025;
   // Without an error zeta says nothing: it may lie anywhere.
-  if (!model.damping_identified && !(model.covariance[kZeta][kZeta] > 0.0)) return CriticalPoint::unknown(why);
-  EndsOfDraws ends(model, end_m_per_s);
+  const bool may_be_anywhere = !model.damping_identified && !(model.covariance[kZeta][kZeta] > 0.0);
+  const std::optional<SpeedRange> range = searched_speeds(model);
+  if (may_be_anywhere || !range) return CriticalPoint::unknown(why);
+  EndsOfDraws ends(model, *range, end_m_per_s);
   const double low = ends.quantile_m_per_s(kTail);
   // Where zeta may be 0, no draw is exactly that.
   const bool is_damped = model.damping_identified && model.damping_ratio > 0.0;
@@ -169,7 +184,7 @@ CriticalPoint by_draws(const ModelEstimate& model, const std::string& why, doubl
   Estimate& speed = point.speed_m_per_s;
   speed.ci95 = Interval{low, high};
   if (std::isinf(high)) return point;
-  speed.value = low < end_m_per_s && end_m_per_s < high ? end_m_per_s : std::sqrt(low * high);
+  speed.value = low < end_m_per_s && end_m_per_s < high ? end_m_per_s : between(low, high);
   speed.standard_error = 0.5 * *speed.value * std::log(high / low) / kNormalQuantile;
   speed.note.clear();
   return point;
@@ -251,12 +266,13 @@ CriticalPoint bound_of(const ModelEstimate& model, double least_m_per_s, const E
 
 double end_of_stick_slip_m_per_s(const ModelEstimate& model, double sharp) {
   constexpr double kSearchStep = 1.1;
-  const double slowest = kSlowest * speed_unit(model);
-  double slides = kFastest * speed_unit(model);
-  if (!(slides > 0.0)) return 0.0;
-  if (sticks_at(model, slides)) return HUGE_VAL;
+  const std::optional<SpeedRange> range = searched_speeds(model);
+  if (!range) return 0.0;
+  const auto [slowest, fastest] = *range;
+  if (sticks_at(model, fastest)) return HUGE_VAL;
   // Friction that depends on the speed may end stick-slip, and let it begin again at higher speeds.
-  const double step = model.speed_dependence ? kSearchStep : slides / slowest;
+  const double step = model.speed_dependence ? kSearchStep : fastest / slowest;
+  double slides = fastest;
   while (!sticks_at(model, slides / step)) {
     slides /= step;
     if (slides <= slowest) return 0.0;

@@ -211,6 +211,23 @@ TEST_CASE("where zeta may be 0 the end of stick-slip is told as a bound, by the 
   CHECK(predict_at(model, {}).critical_speed_m_per_s.note == "the damping ratio cannot be distinguished from 0");
 }
 
+TEST_CASE("the end of stick-slip is sought at speeds of any size") {
+  PredictionModel model = coulomb_example();
+  model.estimate.damping_identified = false;
+  const auto least_m_per_s = [&model](double difference_N) {
+    model.estimate.friction_difference_N = difference_N;
+    const std::string note = predict_at(model, {}).critical_speed_m_per_s.note;
+    return note.starts_with("above ") ? std::stod(note.substr(6)) : 0.0;
+  };
+  const double usual_m_per_s = least_m_per_s(2.0);
+  REQUIRE(usual_m_per_s > 0.0);
+  for (const double scale : {1e200, 1e-200}) {
+    CAPTURE(scale);
+    CHECK(least_m_per_s(scale * 2.0) == Approx(scale * usual_m_per_s).epsilon(1e-3));
+  }
+  for (const double difference_N : {1e-316, 1e308}) CHECK(least_m_per_s(difference_N) == 0.0);
+}
+
 TEST_CASE("a stated model without damping has stick-slip at every speed") {
   const PredictionModel model =
       stated_model(Slider::create(1000.0, 200.0, 0.0).value(), Friction::create(6.0, 4.0).value());
