@@ -37,7 +37,7 @@ inline double set_from_outside(const char* name, double value) {
 BOUND = 0.05  # of a standard error
 PREDICTED = (0.5, 1, 1.4, 2, 4, 8, 30, 200)  # times the fastest recording
 KIND_OF = {"Sweeps": "sweeps", "Predictions": "predictions", "Pattern on a worn surface": "profiles"}  # by section
-OF_SWEEPS = ("kKnownRate", "kWidestFactor", "kOneWave", "kLeastSpeedRatio", "kSamplesOfFall", "kAverageOfSwing")
+OF_SWEEPS = ("kKnownRate", "kWidestFactor", "kLeastSpeedRatio", "kSamplesOfFall", "kAverageOfSwing")
 
 
 def build(folder):

@@ -1,7 +1,7 @@
-# slipfit_unity_build(TARGET): with SLIPFIT_UNITY_BUILD up to 12 sources are one translation unit, because most of a file's compile
+# slipfit_unity_build(TARGET): with SLIPFIT_UNITY_BUILD up to 32 sources are one translation unit, because most of a file's compile
 # time goes into headers and templates. Names local to a file must then be unique in its layer.
 function(slipfit_unity_build target)
-  set_target_properties(${target} PROPERTIES UNITY_BUILD ${SLIPFIT_UNITY_BUILD} UNITY_BUILD_BATCH_SIZE 12)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ${SLIPFIT_UNITY_BUILD} UNITY_BUILD_BATCH_SIZE 32)
 endfunction()
 
 # slipfit_writes_text(TARGET): its code takes no time worth a third longer compilation, or a larger page.

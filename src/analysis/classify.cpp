@@ -27,7 +27,7 @@ bool follows_drive_path(const Conditions& conditions, const Segmentation& segmen
   if (paths * thresholds::kMostDriveSteps < 1.0) return false;
   const double nearest = paths < 1.0 ? 1.0 / std::round(1.0 / paths) : 1.0;
   const double error = interval.sd / interval.mean / std::sqrt(interval.count);
-  return std::abs(paths / nearest - 1.0) < 2.0 * error + thresholds::kSamePath;
+  return std::abs(paths / nearest - 1.0) < 2.0 * error + thresholds::kNegligible;
 }
 
 /// The periods of what repeats scatter by less than those of a motion with friction do.

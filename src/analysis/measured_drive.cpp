@@ -198,8 +198,8 @@ std::optional<SteadyDrive> at_steady_drive(const Recording& recording, const Seg
   conditions.speed_m_per_s += trend.slope() / sticks->stiffness_N_per_m;
   const double unsteadiness = std::sqrt(square / static_cast<double>(removed.size())) / median_drop(segmentation);
   const bool is_at_stated =
-      std::abs(conditions.speed_m_per_s / recording.conditions().speed_m_per_s - 1.0) < thresholds::kSteadyDrive;
-  if (is_at_stated && unsteadiness < thresholds::kSteadyDrive) return std::nullopt;
+      std::abs(conditions.speed_m_per_s / recording.conditions().speed_m_per_s - 1.0) < thresholds::kNegligible;
+  if (is_at_stated && unsteadiness < thresholds::kNegligible) return std::nullopt;
   auto steady =
       Recording::create({recording.time_s().begin(), recording.time_s().end()}, std::move(force), conditions,
                         recording.provenance(), {recording.normal_force_N().begin(), recording.normal_force_N().end()});

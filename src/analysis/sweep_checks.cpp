@@ -170,7 +170,7 @@ Warnings check_level_repeats(std::span<const SweepEntry> entries, const std::vec
   if (paths_m.size() < 2) return {};
   const auto is_one = [](const std::vector<double>& values) {
     const auto [least, most] = std::ranges::minmax_element(values);
-    return *most < (1.0 + thresholds::kOneWave) * *least;
+    return *most < (1.0 + thresholds::kAlike) * *least;
   };
   if (is_one(paths_m) == is_one(times_s)) return {};
   const std::string what =
@@ -263,7 +263,7 @@ std::optional<Apart> furthest(std::span<const SweepEntry> entries, std::vector<A
   std::ranges::sort(recordings, [](const Apart& a, const Apart& b) { return a.errors > b.errors; });
   const Apart& first = recordings.front();
   const Apart& other = recordings[agreeing == Agreeing::Half ? recordings.size() / 2 : 1];
-  const bool beyond = first.errors > thresholds::kLeftOutErrors && std::abs(first.distance) > thresholds::kLeftOutShare;
+  const bool beyond = first.errors > thresholds::kOfManySigmas && std::abs(first.distance) > thresholds::kLeftOutShare;
   const bool is_distinct = beyond && first.errors > thresholds::kDistinctRatio * other.errors;
   // A trend with the speed, with this recording and without it, is no fault of one recording.
   const auto others = std::span(recordings).subspan(1);

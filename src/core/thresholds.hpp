@@ -51,7 +51,8 @@ inline constexpr std::size_t kFewestSlips = 3;
 /// derived: below it a scatter is known to a factor of two only]
 inline constexpr std::size_t kFewestCycles = 5;
 
-/// Fewest samples of a slip that time it and show its shape. [count; derived: onset, fall and end are two each]
+/// Fewest samples of a slip that time it and show its shape, and of a ridge. [count; derived: onset, fall and end are
+/// two each]
 inline constexpr double kShapeSamples = 6.0;
 
 /// Fewest samples of half a period that show its peaks, and straight sticks. [count; derived: peaks are met to
@@ -144,7 +145,7 @@ inline constexpr double kCounted = 0.15;
 /// Drop over noise of a sample, below which noise conceals slips. [1; calibrated: simulated slips are missed below 3]
 inline constexpr double kHiding = 6.0;
 
-/// Relative distance of frequencies that are the same. [1; convention]
+/// Relative distance of frequencies, or of lengths of waves, that are the same. [1; convention]
 inline constexpr double kAlike = 0.05;
 
 /// Spectrum over count less one, above which the repetition is another thing than the slips (pick-up, ringing).
@@ -209,7 +210,7 @@ inline constexpr double kFarOverTypical = 8.0;
 /// chance]
 inline constexpr double kBeyondScatter = 6.0;
 
-/// Smallest relative change that is reported. [1; convention]
+/// Smallest relative change, or difference of two measures of a spacing, that is reported. [1; convention]
 inline constexpr double kNotableChange = 0.2;
 
 /// Mean length of a run of equal values, from which on the logger is quicker than the converter. [samples; convention]
@@ -243,10 +244,6 @@ inline constexpr double kClearlyBetter = 0.95;
 
 // ## Measured drive
 
-/// Deviation of a measured drive from a steady motion at the stated speed, as a force over the median drop or as a
-/// speed over the stated one, below which the stated speed is used. [1; convention: a speed is known to 1 %]
-inline constexpr double kSteadyDrive = 0.01;
-
 /// Force by which a measured drive moves in a slip over the drop of the slip, above which what the slips show is
 /// conditional. [1; calibrated: below it w_n of servo_dips in benchmarks/independent is within 0.5 %]
 inline constexpr double kDriveInSlip = 0.1;
@@ -263,9 +260,6 @@ inline constexpr std::size_t kFewestPairs = 8;
 /// Smallest swing of a wave of the level over the mean drop. [1; convention: between two samples of a slip a peak is
 /// read too low by up to as much]
 inline constexpr double kSmallestWave = 0.05;
-
-/// Largest relative difference of what two recordings repeat over, for it to be one thing. [1; convention]
-inline constexpr double kOneWave = 0.05;
 
 /// Fewest waves of the level in a recording: fewer are a drift. [count; convention]
 inline constexpr double kFewestWaves = 3.0;
@@ -348,9 +342,6 @@ inline constexpr double kRoughMotion = 0.25;
 /// Share of the scatter of an interval that adds up from interval to interval, above which falls keep no clock's phase.
 /// [1; derived: 0 for a clock read with noise, 1 for slips]
 inline constexpr double kWalkShare = 0.2;
-
-/// Relative distance of a measured and a stated path that are the same. [1; convention: a speed is known to 1 %]
-inline constexpr double kSamePath = 0.02;
 
 // ## Which cycles and samples are fitted
 
@@ -435,17 +426,11 @@ inline constexpr double kHalvedStack = 0.5;
 /// sensor zero of a tenth of the force does as much]
 inline constexpr double kLoadShare = 0.1;
 
-/// Least k of another reading of a trend, over that of the fit. [1; convention: a trend as steep as the sticks]
-inline constexpr double kLeastStiffness = 0.01;
-
 /// Relative standard error of a mass that is stated without one (Conditions::mass_standard_error_kg). [1; convention]
 inline constexpr double kUsualMassError = 0.02;
 
 /// Chance at which a line in the sticks is none. [1; convention]
 inline constexpr double kRippleChance = 1e-6;
-
-/// Share of the speed by which a drive swings, above which slips are known to start at other speeds. [1; convention]
-inline constexpr double kRippleShare = 0.02;
 
 /// Factor either way, above which the band of a predicted spacing or of the end of stick-slip says nothing; its square
 /// for an end that goes as an exponential of what ages. [1; convention]
@@ -487,9 +472,6 @@ inline constexpr double kSweepMisfit = 1.5;
 /// longer by the average than by itself. [1; derived]
 inline constexpr double kHidingAverage = 2.0;
 
-/// Chi-square by which a fit with an average is worse and not ruled out. [1; convention: 95 % of one parameter]
-inline constexpr double kNotRuledOut = 3.84;
-
 /// Residual with w_n by a stated mass over that with w_n free, above which the mass is not that of the slips. [1;
 /// convention]
 inline constexpr double kContradictedMass = 1.25;
@@ -515,11 +497,8 @@ inline constexpr std::size_t kTrendRecordings = 3;
 /// Least ratio of their speeds for either. [1; convention]
 inline constexpr double kTrendSpeedRatio = 2.0;
 
-/// Errors by which the spacing predicted without a recording may differ from its own, above which it disagrees with
-/// the others. [1; calibrated: benchmarks/independent/sweeps.py]
-inline constexpr double kLeftOutErrors = 5.0;
-
-/// Least relative difference for that. [1; calibrated: as above]
+/// Relative difference of the spacing of a recording from that which the others predict, above which it may be wrong.
+/// [1; calibrated: benchmarks/independent/sweeps.py]
 inline constexpr double kLeftOutShare = 0.02;
 
 /// The factor by which a recording has to be further away than half of the recordings: if most are far away, the model
@@ -604,9 +583,6 @@ inline constexpr double kHintOfRidges = -1.5;
 /// seeds below 20]
 inline constexpr double kKeptChance = 0.3;
 
-/// Fewest samples of a ridge. [count; convention]
-inline constexpr double kFewestRidgeSamples = 6.0;
-
 /// Probability that a random surface shows such a comb of lines, below which it is believed. [1; convention]
 inline constexpr double kSureComb = 1e-4;
 
@@ -636,9 +612,6 @@ inline constexpr double kHigherRidges = 1.5;
 
 /// Scatter of the distances over their mean, from which on a pattern is called irregular. [1; convention]
 inline constexpr double kIrregular = 0.2;
-
-/// Relative difference of RSm and the spacing, above which it is warned of. [1; convention]
-inline constexpr double kRsmApart = 0.2;
 
 /// Reach of a ratio, above which no whole number is reported. [1; derived: half of it is the next number's]
 inline constexpr double kWholeReach = 0.25;

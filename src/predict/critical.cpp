@@ -32,9 +32,10 @@ std::optional<SpeedRange> searched_speeds(const ModelEstimate& model) {
   return is_range ? std::optional(range) : std::nullopt;
 }
 
-/// Their geometric mean; the product of two speeds may overflow.
+/// Returns the geometric mean. The product of two speeds may overflow.
 double between(double low_m_per_s, double high_m_per_s) {
-  return std::sqrt(low_m_per_s) * std::sqrt(high_m_per_s);
+  const double product = low_m_per_s * high_m_per_s;
+  return std::isnormal(product) ? std::sqrt(product) : std::sqrt(low_m_per_s) * std::sqrt(high_m_per_s);
 }
 
 /// How sharply ends are found, and by which share of a standard error parameters are moved for derivatives. A cycle on

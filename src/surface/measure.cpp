@@ -229,7 +229,7 @@ void warn(Surface& found) {
       {"origin_not_known",
        "a pattern alone does not show its origin: marks of turning, milling or grinding are periodic as well; they "
        "have the same spacing outside the track, whereas the spacing of stick-slip increases with sliding speed"});
-  if (found.rsm_m && std::abs(*found.rsm_m / *found.spacing_m.value - 1.0) > thresholds::kRsmApart) {
+  if (found.rsm_m && std::abs(*found.rsm_m / *found.spacing_m.value - 1.0) > thresholds::kNotableChange) {
     found.warnings.push_back({"rsm_differs",
                               "RSm differs from the spacing by more than a fifth: it counts roughness and "
                               "waves as well as ridges"});

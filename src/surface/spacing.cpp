@@ -238,7 +238,7 @@ std::vector<Pattern> scan(std::span<const double> heights) {
   for (double scale = static_cast<double>(heights.size()) / 8.0; scale >= 2.0; scale /= 1.3) {
     Pattern pattern = pattern_of(find_ridges(heights, scale, 8.0 * scale));
     const double distance = mean_distance(pattern);
-    if (pattern.log_chance > thresholds::kPatternChance || distance < thresholds::kFewestRidgeSamples) continue;
+    if (pattern.log_chance > thresholds::kPatternChance || distance < thresholds::kShapeSamples) continue;
     const bool is_same = !found.empty() && distance > thresholds::kSameScale * mean_distance(found.back());
     if (!is_same) {
       found.push_back(std::move(pattern));
@@ -391,7 +391,7 @@ Pattern most_regular(std::span<const double> heights, double distance) {
 /// plainly than those of twice it (of which it would be every second line).
 std::optional<Pattern> by_comb(std::span<const double> heights, const Combs& combs) {
   const auto comb = combs.find(std::nullopt);
-  if (!comb || !comb->is_sure() || comb->value < thresholds::kFewestRidgeSamples) return std::nullopt;
+  if (!comb || !comb->is_sure() || comb->value < thresholds::kShapeSamples) return std::nullopt;
   Pattern best = most_regular(heights, comb->value);
   const bool shows = !best.places.empty() && best.log_chance < thresholds::kHintOfRidges &&
                      best.log_chance < most_regular(heights, 2.0 * comb->value).log_chance;

@@ -156,7 +156,7 @@ TrendFindings find_level_trend(const Recording& recording, const DampedFit& fit)
   const double stiffness = std::exp(blocks.parameters.values(kLogStiffness));
   const double drift = rate_in_sticks / (stiffness * recording.conditions().speed_m_per_s);
   const auto log_k_at = [&](double share) {
-    return std::log(std::max(thresholds::kLeastStiffness, 1.0 + (share - fitted_share) * drift));
+    return std::log(std::max(thresholds::kNegligible, 1.0 + (share - fitted_share) * drift));
   };
   if (fit.held[kLogStiffness]) return result;  // by the user
   result.log_k_to_value = log_k_at(reported);

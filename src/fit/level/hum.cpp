@@ -483,7 +483,7 @@ std::optional<StickRipple> fitted_ripple(const BlockFit& fit) {
   std::optional<StickRipple> largest;
   for (const FittedLine& line : fitted_lines(fit)) {
     const double share = speed_share(fit, line.frequency_Hz, line.force);
-    const bool may_be_of_drive = !line.is_of_mains && share > thresholds::kRippleShare && share < 1.0;
+    const bool may_be_of_drive = !line.is_of_mains && share > thresholds::kNegligible && share < 1.0;
     if (!may_be_of_drive || (largest && share < largest->speed_share)) continue;
     largest = StickRipple{line.frequency_Hz, line.force, share, 0.0};
   }

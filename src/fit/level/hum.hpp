@@ -111,7 +111,7 @@ std::vector<double> hum_at_other_frequencies(const BlockFit& fit, const std::vec
 /// Returns whether the fit has lines at these frequencies already, up to a difference that is small against the noise.
 bool is_same_hum(const BlockFit& fit, const std::vector<double>& frequencies_Hz);
 
-/// The largest fitted line that a drive may make: its speed changes by more than thresholds::kRippleShare and never
+/// The largest fitted line that a drive may make: its speed changes by more than thresholds::kNegligible and never
 /// turns back; not of the mains.
 std::optional<StickRipple> fitted_ripple(const BlockFit& fit);
 

@@ -168,7 +168,7 @@ struct StiffnessFindings {
 
 /// Returns a line next to the cycles: left in the sticks because it is in step with the slips, or in the fit.
 std::optional<StickRipple> ripple_of(const DampedFit& fit) {
-  return fit.ripple && fit.ripple->speed_share > thresholds::kRippleShare ? fit.ripple : fitted_ripple(fit.blocks);
+  return fit.ripple && fit.ripple->speed_share > thresholds::kNegligible ? fit.ripple : fitted_ripple(fit.blocks);
 }
 
 StiffnessFindings stiffness_findings(const Recording& recording, const TierFits& fits) {

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/statistics.hpp"
 #include "core/thresholds.hpp"
 #include "fit/cycle/sensor.hpp"
 #include "fit/inference/smoothing.hpp"
@@ -20,6 +21,9 @@ namespace {
 
 /// Variance of an impulse response with a long tail that rounds slips as much as an average of variance 1.
 constexpr double kLongTail = 3.0;
+
+/// Chi-square of one parameter by which a worse fit is not ruled out at 95 %.
+constexpr double kNotRuledOut = kNormalQuantile * kNormalQuantile;
 
 /// Rounded slips, slips that are not shaped like the model's, or slips without damping: an average that lasts longer
 /// than the slip takes it away. Falls within a step of the clock show nothing of it.
@@ -83,7 +87,7 @@ Found best_fit(const FitInput& input, const TermFitter& fitter, const DampedFit&
     std::optional<DampedFit> next = fitter.fit(minimum.blocks);
     if (!next || !is_valid_slip(*next, sample_interval_s)) continue;
     double gain_on_samples = gain_on_same_samples(*next, plain) + 2.0;  // without the price of the parameter
-    if (!(gain_on_samples + gain_by_mass(input, *next, plain) > -thresholds::kNotRuledOut)) continue;
+    if (!(gain_on_samples + gain_by_mass(input, *next, plain) > -kNotRuledOut)) continue;
     next = with_average_error(*std::move(next));
     if (!found.best) {
       found.best = std::move(next);
@@ -123,8 +127,7 @@ AverageTrial try_average(const FitInput& input, const DampedFit& plain) {
     if (!(median_slip_s(minimum.blocks) > input.recording.sample_interval_s())) return true;
     if (!is_shaped(find_misfit(minimum.blocks, tolerated_misfit(input.quality)))) return true;
     const bool may_pay = fitter->gain_on_all(minimum, without) > 0.5 * thresholds::kTierPrice;
-    return !may_pay &&
-           !(hides_damping(minimum.blocks) && fitter->gain_on_some(minimum, without) > -2.0 * thresholds::kNotRuledOut);
+    return !may_pay && !(hides_damping(minimum.blocks) && fitter->gain_on_some(minimum, without) > -2.0 * kNotRuledOut);
   });
   if (minima.empty()) return {};
   auto [fit, gain_on_samples, other] = best_fit(input, *fitter, plain, minima);
