@@ -1,5 +1,7 @@
 #include "slipfit/pipeline.hpp"
 
+#include <cstddef>
+#include <mutex>
 #include <optional>
 #include <span>
 #include <string>
@@ -12,12 +14,13 @@
 #include "analysis/estimate.hpp"
 #include "analysis/ring_down.hpp"
 #include "analysis/sweep_checks.hpp"
+#include "core/parallel.hpp"
 #include "slipfit/fit/sweep.hpp"
 #include "slipfit/sweep.hpp"
 
 // The method. detect() finds the stretch of a recording that slides and its slips; estimate() finds their frequency and
 // fits the model to them; classify() says which kind of motion they are; conclude() works out all that follows. The
-// recordings of a sweep take these steps one by one; then fit_sweep() fits one set of parameters to all of them.
+// recordings of a sweep take these steps each on its own; then fit_sweep() fits one set of parameters to all of them.
 
 namespace slipfit {
 namespace {
@@ -67,17 +70,18 @@ Analysis analyze_and_fit(const Recording& recording, const FitOptions& options) 
 
 SweepAnalysis analyze_sweep(std::span<const SweepEntry> entries, const FitOptions& options) {
   SweepAnalysis sweep;
-  std::vector<Steps> steps;
-  steps.reserve(entries.size());  // the recordings of the fit refer to them
   FitOptions own;
   own.curve = options.curve;
-  for (const SweepEntry& entry : entries) {
+  std::mutex notifying;
+  std::vector<Steps> steps = in_parallel(entries.size(), [&](std::size_t i) {
     if (options.notify_step) {
-      options.notify_step("analysing recording " + std::to_string(steps.size() + 1) + " of " +
-                          std::to_string(entries.size()));
+      const std::lock_guard lock(notifying);
+      options.notify_step("analysing recording " + std::to_string(i + 1) + " of " + std::to_string(entries.size()));
     }
-    steps.push_back(take_steps(entry.recording, own));
-    sweep.recordings.push_back(std::move(steps.back().analysis));
+    return take_steps(entries[i].recording, own);
+  });
+  for (Steps& of_one : steps) {
+    sweep.recordings.push_back(std::move(of_one.analysis));
     sweep.recordings.back().asked = AskedFit{};
   }
   sweep.asked = AskedFit{options.tier, options.held};

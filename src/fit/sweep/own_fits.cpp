@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "core/parallel.hpp"
 #include "core/statistics.hpp"
 #include "core/thresholds.hpp"
 #include "fit/inference/intervals.hpp"
@@ -59,16 +60,15 @@ class OwnFitter {
 
   [[nodiscard]] OwnFits fit() const {
     OwnFits own;
-    for (const SweepRecording& sweep : recordings_) {
-      std::optional<DampedFit>& fit = own.fits.emplace_back();
-      if (sweep.role != SweepRole::Cycles) continue;
-      fit = own_draft({sweep.recording, sweep.quality, sweep.segmentation, held_});
-    }
+    own.fits = of_each([this](std::size_t i) {
+      return recordings_[i].role == SweepRole::Cycles ? own_draft(input(i)) : std::nullopt;
+    });
     share_length(own);
-    for (std::size_t i = 0; i < recordings_.size(); ++i) {
-      if (!own.fits[i] || (known_ && !states_average(i))) continue;
-      own.fits[i] = fit_as_sensed(input(i), *std::move(own.fits[i]));
-    }
+    own.fits = of_each([&](std::size_t i) {
+      std::optional<DampedFit> fit = std::move(own.fits[i]);
+      const bool is_open = fit && (!known_ || states_average(i));
+      return is_open ? fit_as_sensed(input(i), *std::move(fit)) : std::move(fit);
+    });
     if (known_) return averaged(own, *known_);
     share_average(own);
     if (!own.average) own.rounding_s2 = common_rounding_s2(recordings_, own.fits);
@@ -76,6 +76,12 @@ class OwnFitter {
   }
 
  private:
+  /// Fits the recordings side by side: `fit_of` gives the fit of the recording with this index.
+  template <class FitOf>
+  [[nodiscard]] std::vector<std::optional<DampedFit>> of_each(const FitOf& fit_of) const {
+    return in_parallel(recordings_.size(), fit_of);
+  }
+
   [[nodiscard]] FitInput input(std::size_t i) const {
     return {recordings_[i].recording, recordings_[i].quality, recordings_[i].segmentation, held_};
   }
@@ -101,12 +107,13 @@ class OwnFitter {
   void share_length(OwnFits& own) const {
     own.reload_length_m = mean_length_m(own.fits);
     if (!own.reload_length_m) return;
-    for (std::size_t i = 0; i < recordings_.size(); ++i) {
-      std::optional<DampedFit>& fit = own.fits[i];
-      if (!fit) continue;
+    own.fits = of_each([&](std::size_t i) {
+      std::optional<DampedFit> fit = std::move(own.fits[i]);
+      if (!fit) return fit;
       auto other = draft_with_rise_over(*own.reload_length_m, input(i), *fit);
-      if (other && (fit->blocks.level().reloading || gain_of(*other, *fit) > 0.0)) fit = std::move(other);
-    }
+      const bool is_better = other && (fit->blocks.level().reloading || gain_of(*other, *fit) > 0.0);
+      return is_better ? std::move(other) : std::move(fit);
+    });
   }
 
   void share_average(OwnFits& own) const {
@@ -133,10 +140,10 @@ class OwnFitter {
   /// All recordings that state none seen through this average.
   [[nodiscard]] OwnFits averaged(const OwnFits& own, const FittedAverage& average) const {
     OwnFits other = own;
-    for (std::size_t i = 0; i < recordings_.size(); ++i) {
-      if (!own.fits[i] || states_average(i)) continue;
-      other.fits[i] = fit_averaged(i, average, *own.fits[i], own.reload_length_m);
-    }
+    other.fits = of_each([&](std::size_t i) {
+      const bool is_open = own.fits[i] && !states_average(i);
+      return is_open ? fit_averaged(i, average, *own.fits[i], own.reload_length_m) : own.fits[i];
+    });
     other.average = average;
     return other;
   }

@@ -398,10 +398,10 @@ double error_beyond(const SweepOutcome& outcome) {
 
 /// Returns the move of the coordinates of `outcome` per unit of one that is held.
 std::optional<Coordinates> moves_by(Coordinate coordinate, const SweepSolution& solution, const SweepOutcome& outcome) {
-  constexpr double kStep = 0.01;  // of ln w_n or zeta
-  const std::optional<SweepSolution> other = with_held(solution, coordinate, kStep);
+  constexpr double kMove = 0.01;  // of ln w_n or zeta
+  const std::optional<SweepSolution> other = with_held(solution, coordinate, kMove);
   if (!other) return std::nullopt;
-  return (coordinates_of(*other, outcome.static_friction) - outcome.values) / kStep;
+  return (coordinates_of(*other, outcome.static_friction) - outcome.values) / kMove;
 }
 
 /// Returns the covariance with the errors of w_n and zeta, which `outcome` holds at the values by ring-downs or by a

@@ -100,11 +100,11 @@ struct OverlayPanel {
   /// Adds one cycle of a force, shifted to its anchor.
   void add_cycle(const Recording& recording, std::span<const double> cycle, const Anchor& anchor,
                  chart::Line& line) const {
-    constexpr std::size_t kColumns = 80;
+    constexpr std::size_t kPointsOfCycle = 80;
     const double per_second = axis.per_second(recording);
     const SampleRange range =
         samples_between(recording, anchor.time_s - reach.before / per_second, anchor.time_s + reach.after / per_second);
-    for (const Point& point : envelope(range.of(recording.time_s()), range.of(cycle), kColumns)) {
+    for (const Point& point : envelope(range.of(recording.time_s()), range.of(cycle), kPointsOfCycle)) {
       line.points.push_back(
           {path.per_SI * per_second * (point.x - anchor.time_s), force.per_SI * (point.y - anchor.force)});
     }
