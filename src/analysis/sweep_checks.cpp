@@ -46,13 +46,14 @@ std::optional<Point> point_of(const Recording& recording, const Analysis& analys
   return point;
 }
 
-/// Swings of a few samples, or seen through a long average, show no sticks whether there are any or not.
+/// Swings of a few samples, or seen through a long average, show no sticks whether there are any or not. A fall that is
+/// averaged is known to a step of the clock.
 bool slides(const Recording& recording, const Analysis& analysis, double average_s) {
   if (analysis.motion == MotionClass::SteadySliding) return true;
   const std::optional<double> frequency_Hz = analysis.frequency.quoted.value;
   return analysis.motion == MotionClass::OscillatorySlip && frequency_Hz &&
          *frequency_Hz * recording.sample_interval_s() * thresholds::kWellSampled < 1.0 &&
-         *frequency_Hz * average_s < thresholds::kAverageOfSwing;
+         *frequency_Hz * (average_s + recording.sample_interval_s()) < thresholds::kAverageOfSwing;
 }
 
 /// Returns true if the fit determines at least one parameter.

@@ -277,8 +277,9 @@ inline constexpr double kLeastSpeedRatio = 1.3;
 /// Samples of a fall, below which it is as long as the clock makes it. [count; convention]
 inline constexpr double kSamplesOfFall = 4.0;
 
-/// Averaging time of the sensor over the period of a swing, above which straight sticks cannot be distinguished from
-/// it. [1; derived: a fall lasts as long as the average at least, and its rounded ends as long again on either side]
+/// Averaging time of the sensor and a step of the clock over the period of a swing, above which straight sticks cannot
+/// be distinguished from it. [1; derived: a fall lasts as long as the average at least, and its rounded ends as long
+/// again on either side]
 inline constexpr double kAverageOfSwing = 0.25;
 
 // ## Slips in the trace

@@ -73,6 +73,12 @@ TEST_CASE("oscillations seen through a long average do not show that stick-slip 
   const ObservedEnd hidden = observed_end(entries, analyses, averaged);
   CHECK(*hidden.sticks_m_per_s == 1e-3);
   CHECK(*hidden.slides_m_per_s == 8e-3);
+  // A step of the clock draws out the fall as well.
+  const std::vector<Analysis> swings{moving(MotionClass::StickSlip), moving(MotionClass::OscillatorySlip, 2.4)};
+  const std::vector<SweepEntry> fine{entry_at(1e-3, 1e-3), entry_at(2e-3, 1e-3)};
+  const std::vector<SweepEntry> coarse{entry_at(1e-3, 0.026), entry_at(2e-3, 0.026)};
+  CHECK(observed_end(fine, swings, averaged).slides_m_per_s == 2e-3);
+  CHECK_FALSE(observed_end(coarse, swings, averaged).slides_m_per_s);
 }
 
 TEST_CASE("levels that repeat over one path at all speeds are texture, after one time a wave of the drive") {

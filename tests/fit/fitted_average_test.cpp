@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstddef>
 #include <utility>
+#include <vector>
 
 #include "fit/scene.hpp"
 
@@ -57,6 +58,29 @@ TEST_CASE("slips seen through an average that nobody stated: its time and the ma
     CHECK(*estimate.value == Approx(truth).epsilon(0.1));
   }
   CHECK(has_warning(analysis, "samples_averaged"));
+}
+
+TEST_CASE("slips that the clock does not resolve lend no time to an average") {
+  Scene s = printed_plastic();
+  s.zeta = 0.04;
+  s.seed = GENERATE(range<std::uint64_t>(1, 13));
+  const std::size_t every = GENERATE(21U, 23U, 25U);  // 2.0 to 2.4 samples a slip
+  CAPTURE(s.seed, every);
+  constexpr std::size_t kAveraged = 14;  // of 50 samples a slip
+  const Recording all = averaged(s, kAveraged);
+  std::vector<double> time_s;
+  std::vector<double> force_N;
+  for (std::size_t i = 0; i < all.size(); i += every) {
+    time_s.push_back(all.time_s()[i]);
+    force_N.push_back(all.force()[i]);
+  }
+  const Analysis analysis =
+      analyze_and_fit(Recording::create(std::move(time_s), std::move(force_N), all.conditions()).value());
+  REQUIRE(analysis.fit);
+  for (const Parameter& p : analysis.fit->parameters) {
+    if (p.name() != "sensor_average_s" || !p.estimate.ci95) continue;
+    CHECK(p.estimate.ci95->low <= static_cast<double>(kAveraged) * all.sample_interval_s());
+  }
 }
 
 TEST_CASE("samples of an instant get no average") {

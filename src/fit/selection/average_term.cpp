@@ -40,12 +40,17 @@ bool is_shaped(const std::optional<SegmentMisfit>& misfit) {
   return !misfit || misfit->chance > thresholds::kMisfitChance;
 }
 
-/// Returns whether the slips have the shape of the model's once the averaging is taken out, and last longer than a step
-/// of the clock. A few cycles decide it.
+/// Returns whether the clock resolves the slips behind the average: shorter ones lend their own time to it.
+bool is_resolved(const BlockFit& fit, double sample_interval_s) {
+  return median_slip_s(fit) > thresholds::kResolvedSamples * sample_interval_s;
+}
+
+/// Returns whether the slips have the shape of the model's once the averaging is taken out, and are resolved. A few
+/// cycles decide it.
 bool is_valid_slip(const DampedFit& fit, double sample_interval_s) {
   const double negative = -thresholds::kLikelySigmas * damping_error(fit);
   return is_shaped(fit.misfit) && !fit.refused_damping && fit.blocks.parameters.values(kDamping) > negative &&
-         resting_share(fit.blocks) >= thresholds::kRestickShare && median_slip_s(fit.blocks) > sample_interval_s;
+         resting_share(fit.blocks) >= thresholds::kRestickShare && is_resolved(fit.blocks, sample_interval_s);
 }
 
 /// Returns whether the slips and W can be distinguished.
@@ -124,7 +129,7 @@ AverageTrial try_average(const FitInput& input, const DampedFit& plain) {
   std::vector<Minimum> minima = fitter->minima({.average = true}).found;
   const Minimum without = fitter->plain();
   std::erase_if(minima, [&](const Minimum& minimum) {
-    if (!(median_slip_s(minimum.blocks) > input.recording.sample_interval_s())) return true;
+    if (!is_resolved(minimum.blocks, input.recording.sample_interval_s())) return true;
     if (!is_shaped(find_misfit(minimum.blocks, tolerated_misfit(input.quality)))) return true;
     const bool may_pay = fitter->gain_on_all(minimum, without) > 0.5 * thresholds::kTierPrice;
     return !may_pay && !(hides_damping(minimum.blocks) && fitter->gain_on_some(minimum, without) > -2.0 * kNotRuledOut);
