@@ -1,7 +1,6 @@
 #include "slipfit/pipeline.hpp"
 
 #include <cstddef>
-#include <mutex>
 #include <optional>
 #include <span>
 #include <string>
@@ -72,12 +71,9 @@ SweepAnalysis analyze_sweep(std::span<const SweepEntry> entries, const FitOption
   SweepAnalysis sweep;
   FitOptions own;
   own.curve = options.curve;
-  std::mutex notifying;
+  Notifier notify(options.notify_step);
   std::vector<Steps> steps = in_parallel(entries.size(), [&](std::size_t i) {
-    if (options.notify_step) {
-      const std::lock_guard lock(notifying);
-      options.notify_step("analysing recording " + std::to_string(i + 1) + " of " + std::to_string(entries.size()));
-    }
+    notify("analysing recording " + std::to_string(i + 1) + " of " + std::to_string(entries.size()));
     return take_steps(entries[i].recording, own);
   });
   for (Steps& of_one : steps) {

@@ -112,7 +112,7 @@ std::vector<std::string> with_quantities_joined(const std::vector<std::string>& 
   return joined;
 }
 
-/// Refuses "--json out.json": the flag would leave out.json as one more recording, which is not found.
+/// Refuses "--json out.json": the flag would leave out.json as one more file to read, which is not found.
 void check_json_flag(const std::vector<std::string>& words) {
   const auto flag =
       std::adjacent_find(words.begin(), words.end(), [](const std::string& word, const std::string& next) {
@@ -120,7 +120,7 @@ void check_json_flag(const std::vector<std::string>& words) {
         return word == "--json" && next.ends_with(".json") && !std::filesystem::exists(next, error);
       });
   if (flag == words.end()) return;
-  refuse("--json takes no file: to write the document to {0}, give --json --out {0}", *std::next(flag));
+  refuse("{0}: no such file; --json takes none: to write the document to {0}, give --json --out {0}", *std::next(flag));
 }
 
 struct Command {

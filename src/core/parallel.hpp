@@ -6,7 +6,9 @@
 #include <functional>
 #include <future>
 #include <limits>
+#include <mutex>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -86,5 +88,21 @@ void for_ranges(std::size_t count, std::size_t grain, const F& f) {
     }
   });
 }
+
+/// Passes on the steps of parallel work, of one thread at a time. `notify` may be empty; it must outlive the notifier.
+class Notifier {
+ public:
+  explicit Notifier(const std::function<void(const std::string&)>& notify) : notify_(notify) {}
+
+  void operator()(const std::string& step) {
+    if (!notify_) return;
+    const std::lock_guard lock(notifying_);
+    notify_(step);
+  }
+
+ private:
+  const std::function<void(const std::string&)>& notify_;
+  std::mutex notifying_;
+};
 
 }  // namespace slipfit

@@ -2,7 +2,6 @@
 #include <cmath>
 #include <cstddef>
 #include <utility>
-#include <vector>
 
 #include "families.hpp"
 #include "scene.hpp"
@@ -20,13 +19,7 @@ Recording averaged_over_step(Scene scene) {
   constexpr std::size_t kFiner = 16;
   scene.samples_per_slip *= static_cast<double>(kFiner);
   const double noise_N = std::exchange(scene.noise, 0.0) * (scene.static_N - scene.kinetic_N);
-  const Recording smooth = moving_average(record(scene), kFiner, noise_N, scene.seed);
-  std::vector<double> time_s, force;
-  for (std::size_t i = 0; i < smooth.size(); i += kFiner) {
-    time_s.push_back(smooth.time_s()[i]);
-    force.push_back(smooth.force()[i]);
-  }
-  return Recording::create(std::move(time_s), std::move(force), smooth.conditions()).value();
+  return test::thinned(moving_average(record(scene), kFiner, noise_N, scene.seed), kFiner);
 }
 
 }  // namespace

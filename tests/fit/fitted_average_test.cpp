@@ -2,7 +2,6 @@
 #include <cmath>
 #include <cstddef>
 #include <utility>
-#include <vector>
 
 #include "fit/scene.hpp"
 
@@ -68,14 +67,7 @@ TEST_CASE("slips that the clock does not resolve lend no time to an average") {
   CAPTURE(s.seed, every);
   constexpr std::size_t kAveraged = 14;  // of 50 samples a slip
   const Recording all = averaged(s, kAveraged);
-  std::vector<double> time_s;
-  std::vector<double> force_N;
-  for (std::size_t i = 0; i < all.size(); i += every) {
-    time_s.push_back(all.time_s()[i]);
-    force_N.push_back(all.force()[i]);
-  }
-  const Analysis analysis =
-      analyze_and_fit(Recording::create(std::move(time_s), std::move(force_N), all.conditions()).value());
+  const Analysis analysis = analyze_and_fit(test::thinned(all, every));
   REQUIRE(analysis.fit);
   for (const Parameter& p : analysis.fit->parameters) {
     if (p.name() != "sensor_average_s" || !p.estimate.ci95) continue;

@@ -199,14 +199,8 @@ TEST_CASE("a rise that lasts few samples is found behind an average, whose time 
   constexpr std::size_t kEvery = 9;     // four samples in a slip
   const Recording fine =
       moving_average(reloading_recording(s, kRise * difference_N), kAverage, 0.003 * difference_N, s.seed);
-  std::vector<double> time_s, force;
-  for (std::size_t i = 0; i < fine.size(); i += kEvery) {
-    time_s.push_back(fine.time_s()[i]);
-    force.push_back(fine.force()[i]);
-  }
   const double average_s = static_cast<double>(kAverage) * (fine.time_s()[1] - fine.time_s()[0]);
-  const Analysis analysis =
-      analyze_and_fit(Recording::create(std::move(time_s), std::move(force), fine.conditions()).value());
+  const Analysis analysis = analyze_and_fit(test::thinned(fine, kEvery));
   REQUIRE(analysis.fit);
   for (const auto& [name, truth] :
        {std::pair{"sensor_average_s", average_s}, std::pair{"reload_force_N", kRise * difference_N},

@@ -81,9 +81,7 @@ std::vector<SweepEntry> printed_plastic(int mass_g, const std::vector<int>& spee
     const std::string name = fmt::format("fdm_{}g_{}mm_min.csv", mass_g, speed_mm_min);
     std::optional<Recording> recording = read_file("real/fdm/" + name, speed_mm_min / 60000.0);
     if (!recording) return {};
-    std::vector<std::size_t> kept;
-    for (std::size_t i = 0; i < recording->size(); i += every) kept.push_back(i);
-    entries.push_back({name, recording->selected(kept)});
+    entries.push_back({name, test::thinned(*recording, every)});
   }
   return entries;
 }

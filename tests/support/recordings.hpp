@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -13,6 +14,13 @@ inline slipfit::Recording recording_of(std::vector<double> time_s, std::vector<d
   slipfit::Conditions conditions;
   conditions.speed_m_per_s = speed_m_per_s;
   return slipfit::Recording::create(std::move(time_s), std::move(force), conditions).value();
+}
+
+/// Every so many samples of a recording, from the first on.
+inline slipfit::Recording thinned(const slipfit::Recording& recording, std::size_t every) {
+  std::vector<std::size_t> kept;
+  for (std::size_t i = 0; i < recording.size(); i += every) kept.push_back(i);
+  return recording.selected(kept);
 }
 
 /// The same clock and conditions with other forces.

@@ -19,7 +19,8 @@ struct FitOptions {
   /// slips.
   std::optional<RingDown> ring_down{};
   bool curve = false;  ///< fill FitResult::curve (16 bytes a sample)
-  /// Called with each step of a fit of several recordings ("fitting without recording 3 of 13"); may be empty.
+  /// Called with each step of a fit of several recordings ("fitting without recording 3 of 13"), by one thread at a
+  /// time, not always the caller's; may be empty.
   std::function<void(const std::string&)> notify_step{};
 };
 

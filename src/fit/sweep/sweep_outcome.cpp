@@ -6,7 +6,6 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
-#include <mutex>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -320,12 +319,9 @@ LeftOut fit_of(const SweepData& data, const NormalSolution& fit, const StaticFri
 std::vector<std::optional<LeftOut>> leave_out_each(const SweepData& data, const NormalSolution& all,
                                                    const StaticFriction& kind) {
   const std::size_t count = all.solution.recordings.size();
-  std::mutex notifying;
+  Notifier notify(data.notify_step);
   return in_parallel(count, [&](std::size_t recording) -> std::optional<LeftOut> {
-    if (data.notify_step) {
-      const std::lock_guard lock(notifying);
-      data.notify_step(fmt::format("fitting without recording {} of {}", recording + 1, count));
-    }
+    notify(fmt::format("fitting without recording {} of {}", recording + 1, count));
     const std::optional<NormalSolution> others = leave_out(all, recording);
     if (!others) return std::nullopt;
     LeftOut one = fit_of(data, *others, kind);
