@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "analysis/detect.hpp"
 #include "analysis/estimate.hpp"
 #include "analysis/harmonic_null.hpp"
+#include "core/statistics.hpp"
 #include "core/thresholds.hpp"
 #include "signal/smoothing.hpp"
 
@@ -30,11 +32,30 @@ bool follows_drive_path(const Conditions& conditions, const Segmentation& segmen
   return std::abs(paths / nearest - 1.0) < 2.0 * error + thresholds::kNegligible;
 }
 
-/// The periods of what repeats scatter by less than those of a motion with friction do.
+/// The periods of what repeats are not proven to scatter by more than those of a drive or of pick-up do.
 bool keeps_time_like_a_clock(const Recording& recording, const SpectralFrequency& spectral) {
   if (!spectral.value_Hz || !spectral.standard_error_Hz) return false;
   const double periods = recording.duration_s() * *spectral.value_Hz;
-  return *spectral.standard_error_Hz / *spectral.value_Hz * std::sqrt(periods) < thresholds::kClockScatter;
+  const double most = thresholds::kClockScatter * (1.0 + kNormalQuantile / std::sqrt(2.0 * periods));
+  return *spectral.standard_error_Hz / *spectral.value_Hz * std::sqrt(periods) < most;
+}
+
+Classification too_few_in_cycle(double samples) {
+  return {MotionClass::Undetermined,
+          fmt::format("{:.1f} samples per cycle are too few to resolve slips; sample at least {:.0f} times faster",
+                      samples, std::ceil(20.0 / samples))};
+}
+
+/// Most of the force repeats, not like a clock, but with so few samples a cycle that it passes for noise where
+/// neighbours are compared.
+Classification unless_unresolved(Classification classification, const Recording& recording,
+                                 const SpectralFrequency& spectral) {
+  if (classification.motion != MotionClass::SteadySliding || !spectral.value_Hz) return classification;
+  const double samples = 1.0 / (*spectral.value_Hz * recording.sample_interval_s());
+  const bool is_resolved = samples > 2.0 * thresholds::kFewestCycleSamples;
+  if (is_resolved || keeps_time_like_a_clock(recording, spectral)) return classification;
+  constexpr double kSwings = 1.0 / 9.0;  // a swing, 2 sqrt(2) of its rms, as large as the rms of the rest
+  return share_of_sine(recording, *spectral.value_Hz) > kSwings ? too_few_in_cycle(samples) : classification;
 }
 
 /// The second half of the recording moves little compared with the first swings: the motion died out.
@@ -80,13 +101,8 @@ std::optional<Classification> by_counts(const Recording& recording, const Segmen
   }
   const double cycle_samples = (segmentation.slips.back().middle_s - segmentation.slips.front().middle_s) /
                                static_cast<double>(count - 1) / recording.sample_interval_s();
-  if (cycle_samples < thresholds::kFewestCycleSamples) {
-    return Classification{
-        MotionClass::Undetermined,
-        fmt::format("{:.1f} samples per cycle are too few to resolve slips; sample at least {:.0f} times faster",
-                    cycle_samples, std::ceil(20.0 / cycle_samples))};
-  }
-  return std::nullopt;
+  return cycle_samples < thresholds::kFewestCycleSamples ? std::optional(too_few_in_cycle(cycle_samples))
+                                                         : std::nullopt;
 }
 
 /// The spectrum shows the rhythm of the falls, whatever they scatter by.
@@ -214,7 +230,11 @@ Classification classify_by_fit(const Recording& recording, const Estimates& esti
   if (!estimates.fit) return without_model(recording, estimates.signals);
   const FitDiagnostics& e = estimates.fit->diagnostics;
   std::size_t used = 0;
-  for (const Cycle& cycle : estimates.fit->cycles) used += cycle.used ? 1 : 0;
+  std::size_t offered = 0;
+  for (const Cycle& cycle : estimates.fit->cycles) {
+    used += cycle.used ? 1 : 0;
+    offered += cycle.selected ? 1 : 0;
+  }
   const bool sudden = slips_are_sudden(segmentation);
   if (used < 5 && !sudden && (e.onset_force_spread > 0.2 || e.relative_residual > 0.04)) {
     if (ends_flat(recording, segmentation)) {
@@ -224,7 +244,9 @@ Classification classify_by_fit(const Recording& recording, const Estimates& esti
     if (!keeps_rhythm(segmentation)) return without_model(recording, estimates.signals);
     return {MotionClass::Undetermined, fmt::format("only {} usable cycles, and they do not agree", used)};
   }
-  const bool loose = e.relative_residual < thresholds::kLooseFit && e.onset_force_spread < thresholds::kWideSpread;
+  // A fit that leaves out most slips says nothing of them.
+  const bool loose = 2 * used >= offered && e.relative_residual < thresholds::kLooseFit &&
+                     e.onset_force_spread < thresholds::kWideSpread;
   const bool close = loose && e.relative_residual < thresholds::kCloseFit;
   const bool died = !sudden && keeps_rhythm(segmentation) && e.span_share < thresholds::kSpanShare;
   if (died && (loose || e.restick_share < thresholds::kRestickShare)) {
@@ -319,11 +341,12 @@ Classification classify(const Recording& recording, const Estimates& estimates) 
     return {MotionClass::Undetermined,
             "oscillation without sticks and with a constant period: pick-up, ripple of the drive or a vibration"};
   }
-  return classification;
+  return unless_unresolved(std::move(classification), recording, estimates.signals.spectral);
 }
 
 Classification classify_by_shape(const Recording& recording, const Signals& signals) {
-  return unless_round(by_falls(recording, signals), recording, {signals, {}});
+  return unless_unresolved(unless_round(by_falls(recording, signals), recording, {signals, {}}), recording,
+                           signals.spectral);
 }
 
 }  // namespace slipfit

@@ -5,10 +5,12 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "slipfit/io/recording_reader.hpp"
 #include "slipfit/pipeline.hpp"
+#include "support/recordings.hpp"
 
 using namespace slipfit;
 
@@ -90,28 +92,62 @@ bool has_events(const Stated& row, const Analysis& analysis) {
   return std::abs(*quoted_Hz / row.events_per_s - 1.0) < row.tolerance;
 }
 
+/// The recording of that row; it fails the test where there is none.
+std::optional<Recording> read(const Stated& row) {
+  Conditions conditions;
+  conditions.speed_m_per_s = row.speed_m_per_s;
+  ReadOptions options;
+  options.force_column = row.force_column;
+  options.sample_rate_Hz = row.sample_rate_Hz;
+  auto recording = read_recording(kReal / row.file, conditions, options);
+  if (recording.ok()) return std::move(recording.value());
+  FAIL_CHECK(recording.error().message);
+  return std::nullopt;
+}
+
+void check(const Stated& row, const Recording& recording) {
+  const Analysis analysis = analyze_and_fit(recording);
+  CAPTURE(row.file, row.kinds, row.events_per_s, recording.size());
+  CAPTURE(static_cast<int>(analysis.motion), analysis.motion_reason, analysis.frequency.quoted.value.value_or(0.0));
+  CHECK(accepts(row.kinds, analysis));
+  CHECK(has_events(row, analysis));
+}
+
+bool is_absent() {
+  if (std::filesystem::exists(kReal / "robot")) return false;
+  WARN("skipped: no measured recordings beside the checkout");
+  return true;
+}
+
 }  // namespace
 
 TEST_CASE("measured recordings have the kind of motion that their README states") {
-  if (!std::filesystem::exists(kReal / "robot")) {
-    WARN("skipped: no measured recordings beside the checkout");
-    return;
-  }
+  if (is_absent()) return;
   for (const Stated& row : stated()) {
-    Conditions conditions;
-    conditions.speed_m_per_s = row.speed_m_per_s;
-    ReadOptions options;
-    options.force_column = row.force_column;
-    options.sample_rate_Hz = row.sample_rate_Hz;
-    const auto recording = read_recording(kReal / row.file, conditions, options);
-    CAPTURE(row.file, row.kinds, row.events_per_s);
-    if (!recording.ok()) {
-      FAIL_CHECK(recording.error().message);
-      continue;
-    }
-    const Analysis analysis = analyze_and_fit(recording.value());
-    CAPTURE(static_cast<int>(analysis.motion), analysis.motion_reason, analysis.frequency.quoted.value.value_or(0.0));
-    CHECK(accepts(row.kinds, analysis));
-    CHECK(has_events(row, analysis));
+    if (const auto recording = read(row)) check(row, *recording);
+  }
+}
+
+TEST_CASE("a wave once a turn is no friction in half of the recording either") {
+  if (is_absent()) return;
+  for (const char* const file : {"oil/oil_1rps_3N.csv", "oil/oil_2-5rps_6N.csv"}) {
+    const Stated row{file, 0.1, "CU"};
+    const auto recording = read(row);
+    if (!recording) continue;
+    const std::size_t half = recording->size() / 2;
+    check(row, recording->part(0, half));
+    check(row, recording->part(half, recording->size()));
+  }
+}
+
+TEST_CASE("oscillations that a slow clock hardly resolves are not called steady sliding") {
+  if (is_absent()) return;
+  const std::vector<std::pair<Stated, std::size_t>> rows{
+      {{"damper/damper_p0_push.csv", 0.01147, "SOU"}, 3},    {{"fdm/fdm_77g_150mm_min.csv", 0.0025, "SOU"}, 2},
+      {{"fdm/fdm_77g_150mm_min.csv", 0.0025, "SOU"}, 3},     {{"fdm/fdm_77g_200mm_min.csv", 0.00333333, "SOU"}, 3},
+      {{"fdm/fdm_77g_300mm_min.csv", 0.005, "SOU"}, 2},      {{"fdm/fdm_232g_400mm_min.csv", 0.00666667, "SOU"}, 2},
+      {{"fdm/fdm_232g_400mm_min.csv", 0.00666667, "SOU"}, 3}};
+  for (const auto& [row, every] : rows) {
+    if (const auto recording = read(row)) check(row, test::thinned(*recording, every));
   }
 }
