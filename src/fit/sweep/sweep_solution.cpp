@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <initializer_list>
 #include <limits>
 #include <memory>
 #include <utility>
@@ -243,19 +244,17 @@ class SweepFitter {
 
   [[nodiscard]] std::optional<SweepFits> fit() const {
     constexpr Sharing kAll{true, true};
-    std::optional<SweepSolution> velocity = with_shares({FrictionLaw::Exponential}, kAll);
+    std::optional<SweepSolution> velocity = with_shares({FrictionLaw::Exponential}, kAll).agreed;
     if (!velocity) return std::nullopt;
     SweepFits fits{*std::move(velocity), std::nullopt};
     const Sharing shares = fits.velocity.sweep.sharing;
-    std::optional<SweepSolution> coulomb = fit({FrictionLaw::Coulomb}, shares);
-    if (coulomb) {
+    Shares coulomb = with_shares({FrictionLaw::Coulomb}, shares);
+    if (coulomb.most) {
       constexpr double kExtra = 2.0;  // slope and rate
-      fits.coulomb_chi2 = coulomb->chi2;
-      fits.p_value = chance(coulomb->chi2 - fits.velocity.chi2, kExtra, fits.velocity);
+      fits.coulomb_chi2 = coulomb.most->chi2;
+      fits.p_value = chance(coulomb.most->chi2 - fits.velocity.chi2, kExtra, fits.velocity);
       // Friction that depends on the speed may explain levels that differ under Coulomb friction.
-      std::optional<SweepSolution> own = with_shares({FrictionLaw::Coulomb}, shares);
-      const bool shares_less = own && own->sweep.sharing != shares;
-      fits.coulomb = shares_less ? std::move(own) : std::move(coulomb);
+      fits.coulomb = std::move(coulomb.agreed ? coulomb.agreed : coulomb.most);
       fits.growing = with_growing_stiffness(*fits.coulomb);
     }
     fits.depends_on_speed = fits.p_value < thresholds::kSignificant;
@@ -337,22 +336,36 @@ class SweepFitter {
     return finished(draft_of(kind, sharing), kind);
   }
 
-  /// Sharing as much of `most` as the data agree with: both, then one of the two, else nothing.
-  [[nodiscard]] std::optional<SweepSolution> with_shares(const Kind& kind, Sharing most) const {
-    std::optional<SweepSolution> free = fit(kind, {false, false});
-    if (!free) return free;
-    for (const Sharing sharing : {Sharing{true, true}, Sharing{false, true}, Sharing{true, false}}) {
-      if ((sharing.level && !most.level) || (sharing.difference && !most.difference)) continue;
-      std::optional<SweepSolution> shared = fit(kind, sharing);
-      if (!shared) continue;
+  /// Fits of one kind.
+  struct Shares {
+    std::optional<SweepSolution> most;    ///< that share as much as they may
+    std::optional<SweepSolution> agreed;  ///< that share as much of that as the data agree with
+  };
+
+  /// Sharing both, then one of the two, else nothing. `most`: what may be shared.
+  [[nodiscard]] Shares with_shares(const Kind& kind, Sharing most) const {
+    const auto fits = [&](std::initializer_list<Sharing> sharings) {
+      return in_parallel(sharings.size(), [&](std::size_t i) { return fit(kind, sharings.begin()[i]); });
+    };
+    std::vector<std::optional<SweepSolution>> ends = most == Sharing{} ? fits({most}) : fits({most, {}});
+    Shares shares{ends.front(), std::move(ends.back())};
+    std::optional<SweepSolution>& free = shares.agreed;
+    if (!free) return shares;
+    const auto is_taken = [&](const std::optional<SweepSolution>& shared) {
+      if (!shared) return false;
       // With more freedom no fit can be worse: where it is, it had ended in another minimum.
       if (shared->chi2 < free->chi2) {
         std::optional<SweepSolution> better = released(*shared);
         if (better && better->chi2 < free->chi2) free = std::move(better);
       }
-      if (chance_of_sharing(*shared, *free) > thresholds::kProven) return shared;
+      return chance_of_sharing(*shared, *free) > thresholds::kProven;
+    };
+    if (is_taken(shares.most)) return {shares.most, shares.most};
+    if (!most.level || !most.difference) return shares;
+    for (std::optional<SweepSolution>& shared : fits({{false, true}, {true, false}})) {
+      if (is_taken(shared)) return {std::move(shares.most), std::move(shared)};
     }
-    return free;
+    return shares;
   }
 
   /// Returns the fit with k that depends on the speed; empty where one k of all recordings explains them.
@@ -361,7 +374,7 @@ class SweepFitter {
     if (!may_grow) return std::nullopt;
     const std::optional<SweepSolution> growing = with_exponent(same, same.held);
     if (!growing || !(chance(same.chi2 - growing->chi2, 1.0, *growing) < thresholds::kSignificant)) return std::nullopt;
-    return with_shares({FrictionLaw::Coulomb, true}, {true, true});
+    return with_shares({FrictionLaw::Coulomb, true}, {true, true}).agreed;
   }
 
   /// Returns the probability of so much more misfit by what the recordings share.
