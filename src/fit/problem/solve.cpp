@@ -347,7 +347,7 @@ class BundleCost : public ceres::CostFunction, public ceres::IterationCallback {
 /// What a fit can explain settles in some five steps from a solution of fewer cycles, however large it is. What it
 /// cannot may creep along a valley: not for longer than the rest of the program takes.
 int most_iterations(const Problem& problem, const SolveOptions& options, std::size_t residuals) {
-  constexpr double kMostEvaluations = 6e5;  // of a sample under Coulomb friction: 12 of 500 cycles of 72 samples
+  constexpr double kMostEvaluations = 3e5;  // of a sample under Coulomb friction: 10 of 300 cycles of 72 samples
   constexpr double kCycle = 24.0;           // evaluations that a cycle costs besides those of its samples
   constexpr double kTerm = 2.0;             // by which weakening and an average each make an evaluation longer
   constexpr double kFewest = 10.0;
