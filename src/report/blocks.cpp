@@ -338,8 +338,8 @@ std::vector<std::string> status_meanings(const std::vector<Parameter>& parameter
 
 std::string critical_speed_text(const Estimate& speed_m_per_s, const Estimate& lambda, const std::string& given_unit) {
   std::string text = fmt::format("  {}: ", quantity_with_key("critical_speed_m_per_s").words);
-  const std::string& note = speed_m_per_s.note;
-  if (!speed_m_per_s.value) return text + (note.empty() ? "not known" : printable(note)) + "\n";
+  const std::string note = in_speed_unit(speed_m_per_s.note, given_unit);
+  if (!speed_m_per_s.value) return wrapped_text(text, note.empty() ? "not known" : printable(note));
   text += estimate_text(speed_m_per_s, speed_unit(given_unit, speed_m_per_s.value));
   if (!note.empty()) return text + "\n" + wrapped_text("  ", printable(note));
   return text + fmt::format(", lambda there {}\n", estimate_text(lambda, display_unit("", {})));

@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <charconv>
 #include <cmath>
+#include <string_view>
+#include <system_error>
 #include <utility>
 
 #include "core/statistics.hpp"
@@ -132,6 +135,26 @@ DisplayUnit speed_unit(const std::string& given, std::optional<double> typical_m
     if (const auto unit = parse_unit(given, Dimension::Speed)) return {1.0 / unit.value().scale, given};
   }
   return display_unit("m/s", typical_m_per_s);
+}
+
+std::string in_speed_unit(const std::string& note, const std::string& given) {
+  constexpr std::string_view kUnit = " m/s";
+  std::string text;
+  std::size_t done = 0;
+  for (std::size_t at = note.find(kUnit); at != std::string::npos && !given.empty(); at = note.find(kUnit, done)) {
+    const std::size_t begin = note.find_last_not_of("0123456789.e+-", at - 1) + 1;  // 0 where none is found
+    double m_per_s = 0.0;
+    const auto [end, error] = std::from_chars(note.data() + begin, note.data() + at, m_per_s);
+    const bool is_unit = note.find_first_of("0123456789", at + kUnit.size()) != at + kUnit.size();  // not m/s2
+    const bool is_speed = is_unit && error == std::errc() && end == note.data() + at && begin >= done;
+    text += note.substr(done, (is_speed ? begin : at + kUnit.size()) - done);
+    if (is_speed) {
+      const DisplayUnit unit = speed_unit(given, m_per_s);
+      text += fmt::format("{:.4g} {}", m_per_s * unit.per_SI, unit.unit);
+    }
+    done = at + kUnit.size();
+  }
+  return text + note.substr(done);
 }
 
 std::string with_error(const Estimate& estimate, const std::string& SI_unit) {

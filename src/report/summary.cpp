@@ -342,7 +342,8 @@ void add_critical_speed(Screen& screen, const SummaryInput& input) {
   const auto zeta = std::ranges::find(input.parameters, ParameterId::DampingRatio, &Parameter::id);
   const bool is_fitted = zeta != input.parameters.end();
   screen.add_row(quantity.words, estimate_row(quantity, critical, input.conditions),
-                 is_fitted ? name_of(zeta->status) : "derived", is_fitted ? zeta->estimate.note : critical.note);
+                 is_fitted ? name_of(zeta->status) : "derived",
+                 is_fitted ? zeta->estimate.note : in_speed_unit(critical.note, input.conditions.speed_unit));
 }
 
 /// Adds the properties of the cycles that need no fit.
@@ -441,6 +442,9 @@ std::string summary_of(const JsonNode& document, const SummaryHints& hints) {
   input.zero_is_known = std::ranges::all_of(recordings, states_zero);
   if (!recordings.empty()) input.conditions = conditions_of(recordings.front().member("recording"));
   if (is_sweep) input.conditions.quantity = ForceQuantity::Force_N;
+  for (Parameter& parameter : input.parameters) {
+    parameter.estimate.note = in_speed_unit(parameter.estimate.note, input.conditions.speed_unit);
+  }
   Screen screen = is_sweep ? screen_of_sweep(input, recordings) : screen_of_recording(input);
   screen.warnings = input.warnings;
   return text_of(screen, hints);

@@ -223,7 +223,9 @@ Figure speed_figure(const Source& source) {
       fmt::format("predicted pattern spacing and stick-slip frequency over driving speed; critical speed {}",
                   critical.value ? estimate_row(critical, unit).value + " " + unit.unit : std::string("not known"));
   if (!critical.value && !critical.note.empty()) {
-    figure.guide += " The critical speed is not known: " + critical.note + ".";
+    figure.guide +=
+        " The critical speed is not known: " + in_speed_unit(critical.note, source.recording.conditions().speed_unit) +
+        ".";
   }
   return figure;
 }
