@@ -314,17 +314,18 @@ std::string caveat_of_fall(const Conditions& conditions, const DampedFit& fit, c
   const auto stated_mass = [&] {
     return fmt::format("the stated mass of {:.3g} kg does not explain the slips", *conditions.mass_kg);
   };
+  const bool is_rejected = conditions.mass_kg && !fit.mass_gives_frequency;
+  const std::string by_mass = is_rejected ? stated_mass() : std::string("state the mass with --mass");
   if (!fit.fall_caveat.empty()) {
-    const bool is_rejected = conditions.mass_kg && !fit.mass_gives_frequency;
-    return fit.fall_caveat + ": " +
-           (is_rejected ? stated_mass() : std::string("state the average with --sensor-average, or the mass"));
+    const bool is_average_known = fit.average && average_is_identifiable(*fit.average);
+    const std::string by_either = "state the average with --sensor-average, or the mass with --mass";
+    return fit.fall_caveat + ": " + (is_average_known || is_rejected ? by_mass : by_either);
   }
   const bool coloured = residual.whiteness_p && *residual.whiteness_p < thresholds::kProven;
   const bool large = residual.reduced_chi2 && *residual.reduced_chi2 > thresholds::kLargeChi2;
   if (!large || !coloured || fit.mass_gives_frequency || fit.motion) return {};
   if (hides_damping(fit.blocks)) {
-    const std::string remedy = conditions.mass_kg ? stated_mass() : std::string("state the mass with --mass");
-    return "the sensor averages over most of the slip, and correlated residuals hide w_n and zeta: " + remedy;
+    return "the sensor averages over most of the slip, and correlated residuals hide w_n and zeta: " + by_mass;
   }
   if (!fit.blocks.level().reloading || findings.sensor_average_s || fit.average) return {};
   const std::string open_fall =
