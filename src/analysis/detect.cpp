@@ -171,9 +171,11 @@ bool slips_are_sudden(const Segmentation& segmentation) {
 
 bool rises_are_round(const Recording& recording, const Segmentation& segmentation) {
   constexpr std::size_t kFewestSamples = 7;
+  constexpr std::size_t kEnough = 64;  // rises, from the first to the last: more say the same
+  const std::size_t stride = 1 + segmentation.slips.size() / kEnough;
   std::size_t round = 0;
   std::size_t straight = 0;
-  for (std::size_t i = 1; i < segmentation.slips.size(); ++i) {
+  for (std::size_t i = 1; i < segmentation.slips.size(); i += stride) {
     const std::size_t begin = segmentation.slips[i - 1].trough;
     const std::size_t end = segmentation.slips[i].peak + 1;
     if (end < begin + kFewestSamples) continue;
