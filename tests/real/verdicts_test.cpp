@@ -151,3 +151,15 @@ TEST_CASE("oscillations that a slow clock hardly resolves are not called steady 
     if (const auto recording = read(row)) check(row, test::thinned(*recording, every));
   }
 }
+
+TEST_CASE("a few sudden slips are not called a force that wanders") {
+  if (is_absent()) return;
+  const Stated row{"clutch/clutch_V300_f100.csv", 5e-4, "SU"};
+  const auto recording = read(row);
+  if (!recording) return;
+  const std::size_t first = recording->size() / 5;
+  const std::size_t length = (recording->size() - first) / 8;
+  for (const std::size_t piece : {std::size_t{4}, std::size_t{5}, std::size_t{7}}) {  // 3 or 4 slips each
+    check(row, recording->part(first + piece * length, first + (piece + 1) * length));
+  }
+}
