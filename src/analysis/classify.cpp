@@ -74,20 +74,25 @@ bool is_release(const Recording& recording, const Segmentation& segmentation) {
   return first_s > thresholds::kSpanShare * recording.duration_s() && last_s - first_s < 0.3 * recording.duration_s();
 }
 
-/// Returns whether as many falls as slips are needed are larger than what noise makes of a steady force.
-bool slips_stand_out_of_noise(const Segmentation& segmentation) {
+/// Returns the number of falls that are larger than what noise makes of a steady force.
+std::size_t falls_beyond_noise(const Segmentation& segmentation) {
   const auto stands_out = [&](const DetectedSlip& slip) {
     return slip.drop() >= thresholds::kNoiseDrop * segmentation.noise;
   };
-  return std::ranges::count_if(segmentation.slips, stands_out) >= std::ptrdiff_t{thresholds::kFewestSlips};
+  return static_cast<std::size_t>(std::ranges::count_if(segmentation.slips, stands_out));
 }
 
 std::optional<Classification> by_counts(const Recording& recording, const Segmentation& segmentation,
                                         const SpectralFrequency& spectral) {
   const std::size_t count = segmentation.slips.size();
   if (count == 0) return Classification{MotionClass::SteadySliding, "the force has no drops larger than its noise"};
-  if (is_faint(segmentation) && !slips_stand_out_of_noise(segmentation) && no_repetition(spectral)) {
-    return Classification{MotionClass::SteadySliding, "the force varies no more than its noise, without repetition"};
+  const std::size_t larger = falls_beyond_noise(segmentation);
+  if (is_faint(segmentation) && larger < thresholds::kFewestSlips && no_repetition(spectral)) {
+    return Classification{MotionClass::SteadySliding,
+                          larger == 0 ? "the force varies no more than its noise, without repetition"
+                                      : fmt::format("only {} larger than the noise of the force, and nothing repeats; "
+                                                    "if these are slips, record longer",
+                                                    larger == 1 ? "one fall is" : "two falls are")};
   }
   if (!slips_are_sudden(segmentation) && is_release(recording, segmentation)) {
     return Classification{MotionClass::SteadySliding, "no force drops except those of the release at the end"};

@@ -145,7 +145,7 @@ AverageTrial try_average(const FitInput& input, const DampedFit& plain) {
   if (!is_taken) return {std::nullopt, std::move(fit)};
   if (!slip_is_identifiable(*fit)) {
     fit->fall_caveat = average_is_identifiable(*fit->average)
-                           ? "the sensor averaging hides the shape of the slips"
+                           ? "the sensor averaging conceals the shape of the slips"
                            : "the data cannot separate the slips from the sensor averaging that rounds them";
   }
   if (other) fit = widened_by_rival(*std::move(fit), *other);
