@@ -46,8 +46,8 @@ Classification too_few_in_cycle(double samples) {
                       samples, std::ceil(20.0 / samples))};
 }
 
-/// Most of the force repeats, not like a clock, but with so few samples a cycle that it passes for noise where
-/// neighbours are compared.
+/// The force repeats, not like a clock, and swings further than the rest scatters, but with so few samples a cycle that
+/// it passes for noise where neighbours are compared.
 Classification unless_unresolved(Classification classification, const Recording& recording,
                                  const SpectralFrequency& spectral) {
   if (classification.motion != MotionClass::SteadySliding || !spectral.value_Hz) return classification;

@@ -142,7 +142,8 @@ std::string in_speed_unit(const std::string& note, const std::string& given) {
   std::string text;
   std::size_t done = 0;
   for (std::size_t at = note.find(kUnit); at != std::string::npos && !given.empty(); at = note.find(kUnit, done)) {
-    const std::size_t begin = note.find_last_not_of("0123456789.e+-", at - 1) + 1;  // 0 where none is found
+    // 0 where all before it are of the number.
+    const std::size_t begin = at == 0 ? 0 : note.find_last_not_of("0123456789.e+-", at - 1) + 1;
     double m_per_s = 0.0;
     const auto [end, error] = std::from_chars(note.data() + begin, note.data() + at, m_per_s);
     const bool is_unit = note.find_first_of("0123456789", at + kUnit.size()) != at + kUnit.size();  // not m/s2
