@@ -236,11 +236,7 @@ Classification classify_by_fit(const Recording& recording, const Estimates& esti
   if (!estimates.fit) return without_model(recording, estimates.signals);
   const FitDiagnostics& e = estimates.fit->diagnostics;
   std::size_t used = 0;
-  std::size_t offered = 0;
-  for (const Cycle& cycle : estimates.fit->cycles) {
-    used += cycle.used ? 1 : 0;
-    offered += cycle.selected ? 1 : 0;
-  }
+  for (const Cycle& cycle : estimates.fit->cycles) used += cycle.used ? 1 : 0;
   const bool sudden = slips_are_sudden(segmentation);
   if (used < 5 && !sudden && (e.onset_force_spread > 0.2 || e.relative_residual > 0.04)) {
     if (ends_flat(recording, segmentation)) {
@@ -250,8 +246,7 @@ Classification classify_by_fit(const Recording& recording, const Estimates& esti
     if (!keeps_rhythm(segmentation)) return without_model(recording, estimates.signals);
     return {MotionClass::Undetermined, fmt::format("only {} usable cycles, and they do not agree", used)};
   }
-  // A fit that leaves out most slips says nothing of them.
-  const bool loose = 2 * used >= offered && e.relative_residual < thresholds::kLooseFit &&
+  const bool loose = !leaves_out_most(*estimates.fit) && e.relative_residual < thresholds::kLooseFit &&
                      e.onset_force_spread < thresholds::kWideSpread;
   const bool close = loose && e.relative_residual < thresholds::kCloseFit;
   const bool died = !sudden && keeps_rhythm(segmentation) && e.span_share < thresholds::kSpanShare;

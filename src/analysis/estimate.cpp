@@ -46,11 +46,7 @@ double misfit_of(double relative_residual, double onset_force_spread) {
 /// one with cycles in less than half of the detected slips, which are then not slips: subtracting a rhythm near the
 /// mains as hum leaves such remains.
 double misfit_of(const std::optional<FitResult>& fit) {
-  if (!fit) return std::numeric_limits<double>::infinity();
-  const std::vector<Cycle>& cycles = fit->cycles;
-  const auto used = std::ranges::count_if(cycles, [](const Cycle& cycle) { return cycle.used; });
-  const auto offered = std::ranges::count_if(cycles, [](const Cycle& cycle) { return cycle.selected; });
-  if (2 * used < offered) return std::numeric_limits<double>::infinity();
+  if (!fit || leaves_out_most(*fit)) return std::numeric_limits<double>::infinity();
   return misfit_of(fit->diagnostics.relative_residual, fit->diagnostics.onset_force_spread);
 }
 
@@ -186,6 +182,12 @@ Estimates against_drive(const Recording& recording, Estimates estimates, const F
 }
 
 }  // namespace
+
+bool leaves_out_most(const FitResult& fit) {
+  const auto used = std::ranges::count_if(fit.cycles, [](const Cycle& cycle) { return cycle.used; });
+  const auto offered = std::ranges::count_if(fit.cycles, [](const Cycle& cycle) { return cycle.selected; });
+  return 2 * used < offered;
+}
 
 Estimates estimate_frequency(const Detected& detected) {
   Estimates estimates{detected.signals, {}};

@@ -17,6 +17,9 @@ struct Estimates {
   double fit_s = 0.0;                  ///< seconds that the fit took
 };
 
+/// Returns whether the fit uses less than half of the cycles that it was offered: it says nothing of the slips then.
+bool leaves_out_most(const FitResult& fit);
+
 /// The spectrum alone.
 Estimates estimate_frequency(const Detected& detected);
 

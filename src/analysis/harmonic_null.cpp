@@ -51,12 +51,12 @@ Sums residuals_of(const Recording& recording, std::size_t begin, std::size_t end
   const auto samples_in = static_cast<double>(count);
   const LineSums line =
       line_sums(recording.time_s().subspan(begin, end - begin), recording.force().subspan(begin, end - begin));
-  return {{line.scatter - line.slope() * line.cross, samples_in - 2.0},
+  return {{line.variance() * (samples_in - 2.0), samples_in - 2.0},
           {std::max(best, 0.0), samples_in - static_cast<double>(terms)}};
 }
 
-/// Of a few cycles at a time; empty below 5 cycles.
-std::optional<Sums> residuals_of(const Recording& recording, double frequency_Hz, std::size_t harmonics) {
+/// Returns the sums over windows of a few cycles each; nothing below 5 cycles.
+std::optional<Sums> residuals_in_windows(const Recording& recording, double frequency_Hz, std::size_t harmonics) {
   const double window_s = kCycles / frequency_Hz;
   const auto fitting = static_cast<std::size_t>(recording.duration_s() / window_s);
   if (fitting == 0) return std::nullopt;
@@ -82,12 +82,12 @@ std::optional<Sums> residuals_of(const Recording& recording, double frequency_Hz
 
 std::optional<double> harmonic_residual_rms(const Recording& recording, double frequency_Hz) {
   constexpr std::size_t kHarmonics = 3;
-  const std::optional<Sums> sums = residuals_of(recording, frequency_Hz, kHarmonics);
+  const std::optional<Sums> sums = residuals_in_windows(recording, frequency_Hz, kHarmonics);
   return sums ? std::optional(std::sqrt(sums->waves.variance())) : std::nullopt;
 }
 
 std::optional<double> share_of_sine(const Recording& recording, double frequency_Hz) {
-  const std::optional<Sums> sums = residuals_of(recording, frequency_Hz, 1);
+  const std::optional<Sums> sums = residuals_in_windows(recording, frequency_Hz, 1);
   return sums ? std::optional(1.0 - sums->waves.variance() / sums->level.variance()) : std::nullopt;
 }
 

@@ -325,7 +325,9 @@ std::string caveat_of_fall(const Conditions& conditions, const DampedFit& fit, c
   const bool large = residual.reduced_chi2 && *residual.reduced_chi2 > thresholds::kLargeChi2;
   if (!large || !coloured || fit.mass_gives_frequency || fit.motion) return {};
   if (hides_damping(fit.blocks)) {
-    return "the sensor averages over most of the slip, and correlated residuals hide w_n and zeta: " + by_mass;
+    return "w_n and zeta cannot be read from the slips, because the sensor averages over most of a slip and the "
+           "residuals are correlated: " +
+           by_mass;
   }
   if (!fit.blocks.level().reloading || findings.sensor_average_s || fit.average) return {};
   const std::string open_fall =
