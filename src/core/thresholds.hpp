@@ -457,6 +457,10 @@ inline constexpr double kLargeChi2 = 2.0;
 
 // ## Sweeps
 
+/// Scatter of friction from one recording to the next, over its mean, that few recordings are judged with. [1;
+/// convention: repeatability within a laboratory of 9 to 13 % in the VAMAS round robin, Czichos et al. 1987]
+inline constexpr double kUsualScatter = 0.1;
+
 /// Ratio of frequencies at one speed (to a ratio of 1.3) from which on the speeds are doubted: F_s - F_k and k would
 /// have to scatter as much. [1; convention]
 inline constexpr double kOneSpeedFrequencies = 2.0;

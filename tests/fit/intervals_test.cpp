@@ -21,4 +21,20 @@ TEST_CASE("what lengthens one side of an interval is not undone by what lengthen
   CHECK(intervals.whole_covariance(y, y) == Approx(0.01 + (0.25 + 0.01 + 0.09 + 0.16) / 3.0));
 }
 
+TEST_CASE("few recordings widen the intervals only of what scatters between them") {
+  Spread spread;
+  spread.covariance(kLogStiffness, kLogStiffness) = 0.01;
+  spread.covariance(kDifference, kDifference) = 0.01;
+  spread.degrees_of_freedom = std::numeric_limits<double>::infinity();
+  Scatter scatter{CoordinateMatrix::Zero(), 1.0};
+  scatter.covariance(kDifference, kDifference) = 0.03;
+  spread.scatter = {scatter};
+  const Intervals intervals(std::move(spread));
+  const Jet stiffness(1.0, static_cast<int>(kLogStiffness));
+  const Jet difference(1.0, static_cast<int>(kDifference));
+  CHECK(intervals.interval_of(stiffness).ci95->high == Approx(1.0 + 0.1 * 1.959963985));
+  CHECK(intervals.degrees_of_freedom(difference) == Approx(0.04 * 0.04 / (0.03 * 0.03)));  // Satterthwaite
+  CHECK(intervals.standard_error(difference) == Approx(0.2));
+}
+
 }  // namespace slipfit::fit

@@ -28,6 +28,12 @@ OneSided one_sided(const Spread& spread, const Change& change) {
 
 }  // namespace
 
+CoordinateMatrix Spread::with_scatter() const {
+  CoordinateMatrix whole = covariance;
+  for (const Scatter& source : scatter) whole += source.covariance;
+  return whole;
+}
+
 Interval damping_interval(double zeta, double se, double quantile) {
   if (zeta - quantile * se > 0.0) return {zeta - quantile * se, zeta + quantile * se};
   const double above_zero = normal_above(-zeta / se);
@@ -46,12 +52,16 @@ double Intervals::standard_error(const Jet& y) const {
 }
 
 double Intervals::degrees_of_freedom(const Jet& y) const {
-  const double fitted = std::max(0.0, y.v.dot(spread_.covariance * y.v));
-  const double scatter = std::max(0.0, y.v.dot(spread_.scatter * y.v));
-  if (!(scatter > 0.0)) return spread_.degrees_of_freedom;
-  const double total = fitted + scatter;
-  return total * total /
-         (fitted * fitted / spread_.degrees_of_freedom + scatter * scatter / spread_.scatter_degrees_of_freedom);
+  double total = std::max(0.0, y.v.dot(spread_.covariance * y.v));
+  double squares = total * total / spread_.degrees_of_freedom;
+  bool scatters = false;
+  for (const Scatter& source : spread_.scatter) {
+    const double variance = std::max(0.0, y.v.dot(source.covariance * y.v));
+    scatters = scatters || variance > 0.0;
+    total += variance;
+    squares += variance * variance / source.degrees_of_freedom;
+  }
+  return scatters ? total * total / squares : spread_.degrees_of_freedom;
 }
 
 Intervals::Reach Intervals::reach_of(const Jet& y, const std::function<double(const Coordinates&)>& change) const {
@@ -71,7 +81,8 @@ Intervals::Reach Intervals::reach_of_spread(const Jet& y,
     reach.down = std::max(reach.down, -moved);
     reach.up = std::max(reach.up, moved);
   }
-  const double held = quantile * std::sqrt(std::max(0.0, y.v.dot((profile.held + spread_.scatter) * y.v)));
+  const CoordinateMatrix scatter = covariance_ - spread_.covariance;
+  const double held = quantile * std::sqrt(std::max(0.0, y.v.dot((profile.held + scatter) * y.v)));
   if (profile.at_bound) return {reach.down + held, reach.up + held};
   return {std::hypot(reach.down, held), std::hypot(reach.up, held)};
 }

@@ -29,19 +29,26 @@ struct Profile {
   bool at_bound = false;
 };
 
+/// A covariance that was estimated from few cycles or recordings.
+struct Scatter {
+  CoordinateMatrix covariance;
+  double degrees_of_freedom = 1.0;  ///< infinite where the covariance is known
+};
+
 /// Holds what is known of the uncertainty of the coordinates.
 struct Spread {
   CoordinateMatrix covariance = CoordinateMatrix::Zero();
   double degrees_of_freedom = 1.0;
-  /// Holds the covariance of means over few cycles or recordings, with degrees of freedom of its own.
-  CoordinateMatrix scatter = CoordinateMatrix::Zero();
-  double scatter_degrees_of_freedom = 1.0;
+  std::vector<Scatter> scatter{};  ///< to be added to the covariance
   std::optional<Profile> profile;
   /// Holds how far the coordinates are off at most, in full or in part, for reasons that no refit shows. Each entry
   /// lengthens one side of an interval.
   std::vector<Coordinates> one_sided{};
   /// The way to each of other fits of which one may be right: the farthest lengthens its side of an interval.
   std::vector<Coordinates> to_rivals{};
+
+  /// Returns the covariance with all scatter.
+  [[nodiscard]] CoordinateMatrix with_scatter() const;
 };
 
 /// An interval of zeta (of no width: held) with the sides longer by what lengthens those of others.
@@ -52,7 +59,7 @@ Interval lengthened_damping(const Interval& interval, const Spread& spread);
 /// Spread::one_sided and to_rivals. Where it is not symmetric, the standard error is that of the longer side.
 class Intervals {
  public:
-  explicit Intervals(Spread spread) : spread_(std::move(spread)) {}
+  explicit Intervals(Spread spread) : spread_(std::move(spread)), covariance_(spread_.with_scatter()) {}
 
   [[nodiscard]] Estimate interval_of(const Jet& y) const;
   /// Symmetric in the logarithm: the sign is known.
@@ -61,9 +68,7 @@ class Intervals {
   /// moved.
   [[nodiscard]] Estimate interval_along(const Jet& y, const std::function<double(const Coordinates&)>& at) const;
 
-  [[nodiscard]] double covariance(const Jet& a, const Jet& b) const {
-    return a.v.dot((spread_.covariance + spread_.scatter) * b.v);
-  }
+  [[nodiscard]] double covariance(const Jet& a, const Jet& b) const { return a.v.dot(covariance_ * b.v); }
   /// Includes what lengthens one side: anything up to it is as likely, which adds a third of its square.
   [[nodiscard]] double whole_covariance(const Jet& a, const Jet& b) const {
     double whole = covariance(a, b);
@@ -92,6 +97,7 @@ class Intervals {
   [[nodiscard]] Estimate estimate(const Jet& y, const Reach& reach) const;
 
   Spread spread_;
+  CoordinateMatrix covariance_;  ///< with all scatter
 };
 
 /// A value with its standard error, above 0.

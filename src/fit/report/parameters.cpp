@@ -138,13 +138,13 @@ std::optional<EstimatedModel> model_of(const Findings& findings, const SlidingMo
     used.push_back(i);
     entering.push_back(enters_as_logarithm(id) ? log(value_of(model, id)) : value_of(model, id));
   }
+  const auto freedom = [&](const Jet& value) { return findings.intervals.degrees_of_freedom(value); };
+  estimate.degrees_of_freedom = freedom(*std::ranges::min_element(entering, {}, freedom));
   for (std::size_t i = 0; i < used.size(); ++i) {
     for (std::size_t j = 0; j < used.size(); ++j) {
       estimate.covariance[used[i]][used[j]] = findings.intervals.whole_covariance(entering[i], entering[j]);
     }
   }
-  estimate.degrees_of_freedom =
-      std::min(findings.intervals.degrees_of_freedom(model.difference), findings.intervals.spread().degrees_of_freedom);
   estimate.damping_identified = findings.held[kDamping] || findings.damping.ci95->low > 0.0;
   Correlation correlation = correlation_of(estimate, used);
   return EstimatedModel{estimate, std::move(correlation)};

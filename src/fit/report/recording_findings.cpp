@@ -54,7 +54,7 @@ std::string words_for_rate(const LevelTrend& trend, const char* unit) {
 }  // namespace
 
 void state_trend(const TrendFindings& trend, const Conditions& conditions, Findings& findings) {
-  const CoordinateMatrix& covariance = findings.intervals.spread().covariance;
+  const CoordinateMatrix covariance = findings.intervals.spread().with_scatter();
   const auto error_of = [&](Coordinate i) { return std::sqrt(std::max(0.0, covariance(i, i))); };
   const char* const unit = conditions.quantity == ForceQuantity::Force_N ? " N" : "";
   std::string of_stiffness;
@@ -202,8 +202,9 @@ Spread spread_of(const DampedFit& fit) {
   // With cycles as the units of resampling the scatter is already in the covariance.
   if (fit.uncertainty.from_cycles) return spread;
   const auto cycles = static_cast<double>(fit.blocks.size());
-  spread.scatter(kDifference, kDifference) = fit.uncertainty.onset_force_sd * fit.uncertainty.onset_force_sd / cycles;
-  spread.scatter_degrees_of_freedom = cycles - 1.0;
+  Scatter of_onsets{CoordinateMatrix::Zero(), cycles - 1.0};
+  of_onsets.covariance(kDifference, kDifference) = std::pow(fit.uncertainty.onset_force_sd, 2) / cycles;
+  spread.scatter = {of_onsets};
   return spread;
 }
 

@@ -32,7 +32,7 @@ FreeMotion at_mean_speed(FreeMotion ring, double speed_m_per_s, const SweepOutco
   const double log_ratio = std::log(speed_m_per_s / outcome.solution.sweep.units.speed_m_per_s);
   const double exponent = outcome.values(kStiffnessExponent);
   ring.values(0) -= 0.5 * exponent * log_ratio;
-  const double variance = outcome.spread.covariance(kStiffnessExponent, kStiffnessExponent);
+  const double variance = outcome.spread.with_scatter()(kStiffnessExponent, kStiffnessExponent);
   // It may end there, or double: no more is as unlikely as the ends of the interval.
   const double beyond = exponent * outcome.reach.distance_beyond(speed_m_per_s);
   const double beyond_error = beyond / t_quantile(outcome.spread.degrees_of_freedom);
@@ -102,12 +102,12 @@ std::optional<RingEvidence> ring_evidence(std::span<const SweepRecording> record
   if (rings.empty()) return std::nullopt;
   const double off = effect_of_averaging(recordings, outcome, data);
   const FreeMotion mean = mean_of(rings);
-  FreeMotion slips = motion_of_slips(outcome.values, outcome.spread.covariance, off);
+  FreeMotion slips = motion_of_slips(outcome.values, outcome.spread.with_scatter(), off);
   if (solution.held[kDamping]) {
     const auto beside = with_held(solution, kDamping, mean.values(1) - outcome.values(kDamping));
     if (!beside) return std::nullopt;
     const SweepOutcome given = outcome_of(data, *beside);
-    slips = motion_of_slips(given.values, given.spread.covariance, off);
+    slips = motion_of_slips(given.values, given.spread.with_scatter(), off);
     slips.covariance(1, 1) = 1.0 / 12.0;  // anything between 0 and 1 is as likely
   }
   return RingEvidence{slips, mean, compare_motions(slips, mean)};

@@ -301,8 +301,7 @@ AgeingLine ageing_line(const SweepSolution& solution, const AgeingCutoff& cutoff
   const LinesOverSticks::Line best = lines.with(cutoff.value);
   AgeingLine line{best.difference_weights, best.rate_weights};
   line.explains = within_own_errors(best.residuals, lines.own_variances());
-  const auto count = static_cast<double>(best.residuals.size());
-  line.residual_variance = best.residuals.squaredNorm() / std::max(1.0, count - 2.0);
+  line.squares = best.residuals.squaredNorm();
   for (Index i = 0; i < AgeingCutoff::kPoints; ++i) {
     const LinesOverSticks::Line other = lines.with(cutoff.values(i));
     const Eigen::Vector3d move(other.difference - best.difference, other.rate - best.rate,

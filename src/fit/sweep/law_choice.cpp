@@ -66,9 +66,9 @@ std::vector<Candidate> candidates_of(const SweepFits& fits, const LawChoice& cho
 
 /// zeta may be above 0 by its interval, or is held.
 bool allows_damping(const SweepOutcome& outcome) {
-  const double error = std::sqrt(outcome.spread.covariance(kDamping, kDamping));
-  return outcome.solution.held[kDamping] ||
-         outcome.values(kDamping) + t_quantile(outcome.spread.degrees_of_freedom) * error > 0.0;
+  const Intervals intervals(outcome.spread);
+  const Jet zeta(outcome.values(kDamping), static_cast<int>(kDamping));
+  return outcome.solution.held[kDamping] || zeta.a + intervals.quantile(zeta) * intervals.standard_error(zeta) > 0.0;
 }
 
 /// Under Coulomb friction; with k that goes with the speed where recordings left out are predicted better so.
@@ -92,7 +92,11 @@ ChosenLaw choose_law(const SweepData& data, const SweepFits& fits, std::optional
   }
   const bool depends_on_speed = choice.velocity || !fits.coulomb;
   if (!depends_on_speed && !coulomb) coulomb = coulomb_outcome(data, fits);
-  SweepOutcome outcome = depends_on_speed ? outcome_of(data, settled(fits.velocity)) : *std::move(coulomb);
+  SweepOutcome outcome = depends_on_speed ? outcome_of(data, settled(fits.velocity)) : *coulomb;
+  if (choice.velocity && coulomb && !allows_damping(outcome) && allows_damping(*coulomb)) {
+    choice = {false, "residuals exceed the noise, and damping would be negative with F_k(v)"};
+    outcome = *std::move(coulomb);
+  }
   std::vector<Candidate> candidates = candidates_of(fits, choice);
   return {std::move(outcome), std::move(choice), std::move(candidates)};
 }

@@ -41,11 +41,37 @@ VectorXd levels_of(const SweepSolution& solution) {
   return shared_or_own(levels, solution.sweep.sharing.level);
 }
 
-/// Squared standard error of the mean of what the recordings have each for themselves.
-double variance_of_mean(const VectorXd& values) {
+/// The variance of one recording's own value.
+struct OwnVariance {
+  double value = 0.0;
+  double degrees_of_freedom = 1.0;
+
+  [[nodiscard]] double half_width() const { return t_quantile(degrees_of_freedom) * std::sqrt(value); }
+};
+
+/// Returns the variance by the sum of squares around a mean or a line, or with what is known of friction beforehand
+/// where the interval is narrower with it: two or three recordings alone allow nearly any scatter.
+OwnVariance own_variance(double squares, double freedom, double usual_value) {
+  constexpr double kWorth = 2.0;  // recordings that the knowledge counts as
+  const double usual = thresholds::kUsualScatter * usual_value;
+  const OwnVariance with_usual{(squares + kWorth * usual * usual) / (freedom + kWorth), freedom + kWorth};
+  if (freedom < 1.0) return with_usual;
+  const OwnVariance alone{squares / freedom, freedom};
+  return alone.half_width() < with_usual.half_width() ? alone : with_usual;
+}
+
+double squares_around_mean(const VectorXd& values) {
+  return values.size() == 0 ? 0.0 : (values.array() - values.mean()).square().sum();
+}
+
+/// Adds the scatter of the mean of what the recordings have each for themselves.
+void add_scatter_of_mean(Spread& spread, Coordinate coordinate, const VectorXd& values, double usual_value) {
+  if (values.size() < 2) return;
   const auto count = static_cast<double>(values.size());
-  if (values.size() < 2) return 0.0;
-  return (values.array() - values.mean()).square().sum() / (count * (count - 1.0));
+  const OwnVariance own = own_variance(squares_around_mean(values), count - 1.0, usual_value);
+  Scatter scatter{CoordinateMatrix::Zero(), own.degrees_of_freedom};
+  scatter.covariance(coordinate, coordinate) = own.value / count;
+  spread.scatter.push_back(scatter);
 }
 
 /// Returns the line of static friction: without ageing it is level, at the mean.
@@ -54,7 +80,7 @@ AgeingLine static_friction_line(const SweepSolution& solution, const StaticFrict
   const VectorXd differences = shared_or_own(differences_of(solution), solution.sweep.sharing.difference);
   const Index count = differences.size();
   return {VectorXd::Constant(count, 1.0 / static_cast<double>(count)), VectorXd::Zero(count),
-          static_cast<double>(count) * variance_of_mean(differences), false};
+          squares_around_mean(differences), false};
 }
 
 Selection selection_of(const SweepSolution& solution, const AgeingLine& line) {
@@ -86,14 +112,16 @@ Selection selection_of(const SweepSolution& solution, const AgeingLine& line) {
   return selection;
 }
 
-/// Adds the scatter of the recordings around their line. The recordings count then, and not their cycles.
-void add_scatter(Spread& spread, const SweepSolution& solution, const AgeingLine& line, const StaticFriction& kind) {
-  MatrixXd scatter(line.rate_weights.size(), 2);
-  scatter << line.difference_weights, line.rate_weights;
-  spread.covariance.block<2, 2>(kDifference, kDifference) += line.residual_variance * scatter.transpose() * scatter;
-  if (!kind) return;
-  const double recordings = std::max(1.0, static_cast<double>(solution.recordings.size()) - 2.0);
-  spread.degrees_of_freedom = std::min(spread.degrees_of_freedom, recordings);
+/// Adds the scatter of the recordings' own static friction around their line.
+void add_scatter_around(const AgeingLine& line, double difference, const StaticFriction& kind, Spread& spread) {
+  if (line.rate_weights.size() < 2) return;
+  MatrixXd weights(line.rate_weights.size(), 2);
+  weights << line.difference_weights, line.rate_weights;
+  const double fitted = kind ? 2.0 : 1.0;
+  const OwnVariance own = own_variance(line.squares, static_cast<double>(weights.rows()) - fitted, difference);
+  Scatter scatter{CoordinateMatrix::Zero(), own.degrees_of_freedom};
+  scatter.covariance.block<2, 2>(kDifference, kDifference) = own.value * weights.transpose() * weights;
+  spread.scatter.push_back(scatter);
 }
 
 }  // namespace
@@ -127,21 +155,24 @@ Spread spread_of(const SweepData& data, const SweepSolution& solution, const std
     spread.covariance = variance * white_covariance(problem, normals, selection, {solution.held});
     spread.degrees_of_freedom = static_cast<double>(solution.cycles());
   }
-  spread.covariance(kLevel, kLevel) += variance_of_mean(levels_of(solution));
-  spread.covariance(kReloadForce, kReloadForce) += variance_of_mean(rises_of(solution));
-  spread.covariance(kStiffnessDrift, kStiffnessDrift) += variance_of_mean(drifts_of(solution));
+  const VectorXd levels = levels_of(solution);
+  const VectorXd rises = rises_of(solution);
+  add_scatter_of_mean(spread, kLevel, levels, levels.mean());
+  if (rises.size() > 0) add_scatter_of_mean(spread, kReloadForce, rises, rises.mean());
+  add_scatter_of_mean(spread, kStiffnessDrift, drifts_of(solution), 1.0);  // of ln k
   // Recordings whose cycles are those of the model, and that lie on the line within their own errors, count as the
   // cycles do; otherwise they scatter, and they count.
-  if (!(kind && line.explains && !correlated)) add_scatter(spread, solution, line, kind);
+  if (!(kind && line.explains && !correlated)) {
+    add_scatter_around(line, differences_of(solution).mean(), kind, spread);
+  }
   return spread;
 }
 
 void add_cutoff(const SweepSolution& solution, const StaticFriction& kind, Spread& spread) {
   if (!kind) return;
-  const double quantile = t_quantile(spread.degrees_of_freedom) / t_quantile(std::numeric_limits<double>::infinity());
-  spread.scatter.block<3, 3>(kDifference, kDifference) +=
-      ageing_line(solution, *kind).by_cutoff / (quantile * quantile);
-  spread.scatter_degrees_of_freedom = spread.degrees_of_freedom;
+  Scatter scatter{CoordinateMatrix::Zero(), std::numeric_limits<double>::infinity()};
+  scatter.covariance.block<3, 3>(kDifference, kDifference) = ageing_line(solution, *kind).by_cutoff;
+  spread.scatter.push_back(scatter);
 }
 
 Coordinates with_damping_cut(const Coordinates& values, const CoordinateMatrix& covariance) {
@@ -348,15 +379,26 @@ CoordinateMatrix jackknife_over(const std::vector<std::optional<LeftOut>>& each)
   return sum;
 }
 
+/// Returns the variances that fewer data would enlarge: by cycles and recordings.
+Coordinates sampling_variances(const Spread& spread) {
+  Coordinates variances = spread.covariance.diagonal();
+  for (const Scatter& source : spread.scatter) {
+    if (std::isfinite(source.degrees_of_freedom)) variances += source.covariance.diagonal();
+  }
+  return variances;
+}
+
 /// The recordings disagree by more than noise and the scatter of the cycles explain: the variance of the shift between
 /// an efficient estimate and one from fewer data is the difference of their variances (Hausman).
 bool recordings_disagree(const SweepOutcome& outcome) {
   if (count_of(outcome.left_out) < 3.0) return false;
-  const CoordinateMatrix& covariance = outcome.spread.covariance;
+  const Coordinates all = sampling_variances(outcome.spread);
   for (const auto& one : outcome.left_out) {
-    for (Eigen::Index i = 0; one && i < kCoordinates; ++i) {
-      const double least = 0.05 * covariance(i, i);  // rounding and iteration: the difference may come out as nothing
-      const double variance = std::max(one->spread.covariance(i, i) - covariance(i, i), least);
+    if (!one) continue;
+    const Coordinates without = sampling_variances(one->spread);
+    for (Eigen::Index i = 0; i < kCoordinates; ++i) {
+      const double least = 0.05 * all(i);  // rounding and iteration: the difference may come out as nothing
+      const double variance = std::max(without(i) - all(i), least);
       const double shift = one->values(i) - outcome.values(i);
       if (variance > 0.0 && shift * shift > thresholds::kOfManySigmas * thresholds::kOfManySigmas * variance)
         return true;
@@ -372,7 +414,7 @@ std::optional<double> left_out_difference(const SweepOutcome& outcome, std::size
   const SweepSolution& solution = outcome.solution;
   const BlockFit& blocks = solution.recordings[recording];
   const double speed = blocks.scales().speed_m_per_s;
-  const SlidingModel model(with_damping_cut(one->values, one->spread.covariance), solution.sweep.units);
+  const SlidingModel model(with_damping_cut(one->values, one->spread.with_scatter()), solution.sweep.units);
   const auto spacing = model.spacing(speed, solution.population(recording).load);
   if (!spacing) return std::nullopt;
   return std::log(spacing->a / (speed * median_period_s(blocks)));
@@ -438,10 +480,9 @@ SweepOutcome with_intervals(const SweepData& data, SweepOutcome outcome) {
   if (depends_on_speed(solution)) outcome.other_law = other_law(solution, outcome.static_friction);
   outcome.disagree = recordings_disagree(outcome);
   if (outcome.disagree) {
-    spread.covariance += jackknife_over(outcome.left_out);
     const double fitted =
         solution.recordings.front().solves_for(kStiffnessExponent) ? 2.0 : 1.0;  // of a line, of a mean
-    spread.degrees_of_freedom = std::max(1.0, std::min(spread.degrees_of_freedom, count_of(outcome.left_out) - fitted));
+    spread.scatter.push_back({jackknife_over(outcome.left_out), std::max(1.0, count_of(outcome.left_out) - fitted)});
   }
   if (outcome.reach.trend) outcome.reach.trend = std::hypot(*outcome.reach.trend, error_beyond(outcome));
   add_cutoff(solution, outcome.static_friction, spread);
@@ -457,14 +498,15 @@ SweepOutcome outcome_of(const SweepData& data, const SweepSolution& solution) {
 
 Spread spread_at(const LeftOut& fit, double speed_m_per_s) {
   Spread spread = fit.spread;
-  const double half_width = fit.reach.half_width_at(speed_m_per_s) * fit.values(kDifference);
-  const double quantile = t_quantile(spread.degrees_of_freedom);
-  spread.covariance(kDifference, kDifference) += std::pow(half_width / quantile, 2);
-  const double of_stiffness = fit.values(kStiffnessExponent) * fit.reach.distance_beyond(speed_m_per_s);
+  Coordinates trend = Coordinates::Zero();
+  trend(kDifference) = fit.reach.half_width_at(speed_m_per_s) * fit.values(kDifference);
   Coordinates growth = Coordinates::Zero();
-  growth(kLogStiffness) = of_stiffness / quantile;
-  growth(kLogFrequency) = 0.5 * of_stiffness / quantile;  // of the same mass
-  spread.covariance += growth * growth.transpose();
+  growth(kLogStiffness) = fit.values(kStiffnessExponent) * fit.reach.distance_beyond(speed_m_per_s);
+  growth(kLogFrequency) = 0.5 * growth(kLogStiffness);  // of the same mass
+  for (const Coordinates& half_width : {trend, growth}) {
+    const Coordinates error = half_width / kNormalQuantile;
+    spread.scatter.push_back({error * error.transpose(), std::numeric_limits<double>::infinity()});
+  }
   return spread;
 }
 

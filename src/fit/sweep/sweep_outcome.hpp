@@ -19,8 +19,7 @@ Coordinates coordinates_of(const SweepSolution& solution, const StaticFriction& 
 Spread spread_of(const SweepData& data, const SweepSolution& solution, const std::vector<Normal>& normals,
                  const StaticFriction& kind);
 
-/// Adds the uncertainty of the cut-off of ageing. Its distribution gives its range by itself, so that Student's t of
-/// the spread, with its final degrees of freedom, is divided out.
+/// Adds the uncertainty of the cut-off of ageing, whose distribution is known.
 void add_cutoff(const SweepSolution& solution, const StaticFriction& kind, Spread& spread);
 
 /// zeta cannot be negative: where its best value is, the best values given zeta = 0 (by the covariance, to second
