@@ -176,6 +176,13 @@ class LinesOverSticks {
     return line;
   }
   [[nodiscard]] const VectorXd& own_variances() const { return variances_; }
+  /// Returns the largest variance of the recordings over that of their own errors: by the usual scatter of friction, or
+  /// by all that they differ if that is more.
+  [[nodiscard]] double largest_variance() const {
+    const double usual = thresholds::kUsualScatter * differences_.mean();
+    const double seen = (differences_.array() - differences_.mean()).square().mean();
+    return std::max(1.0, std::max(usual * usual, seen) / variances_.mean());
+  }
   [[nodiscard]] double longest_stick() const { return sticks_.maxCoeff(); }
   [[nodiscard]] double shortest_stick() const { return sticks_.minCoeff(); }
   [[nodiscard]] Index count() const { return sticks_.size(); }
@@ -223,20 +230,27 @@ struct CutoffGrid {
       chi2(i) = lines.with(values(i)).chi2;
     }
   }
-  [[nodiscard]] AgeingCutoff::Grid weights(double variance) const {
-    const AgeingCutoff::Grid all = (-0.5 * (chi2 - chi2.minCoeff()) / variance).exp();
+  /// Returns the weights by the likelihood, where the variance of the recordings is anything between their own errors
+  /// and `largest` times as much, with every logarithm as likely.
+  [[nodiscard]] AgeingCutoff::Grid weights(double freedom, double largest) const {
+    constexpr int kSteps = 24;
+    AgeingCutoff::Grid all = AgeingCutoff::Grid::Zero();
+    for (int i = 0; i < kSteps; ++i) {
+      const double variance = std::pow(largest, i / (kSteps - 1.0));
+      all += std::pow(variance, -0.5 * freedom) * (-0.5 * (chi2 - chi2.minCoeff()) / variance).exp();
+    }
     return all / all.sum();
   }
 };
 
 /// Over the part of the range that has weight, so that its points resolve what is known.
-CutoffGrid resolved_grid(const LinesOverSticks& lines, double freedom) {
+CutoffGrid resolved_grid(const LinesOverSticks& lines, double freedom, double largest) {
   constexpr int kRefinements = 3;
   constexpr double kNothing = 1e-6;
   const double longest = lines.longest_stick();
   CutoffGrid grid(lines, 0.0, std::sqrt(longest / (1.0 + longest)));
   for (int i = 0; i < kRefinements; ++i) {
-    const AgeingCutoff::Grid weights = grid.weights(std::max(1.0, grid.chi2.minCoeff() / freedom));
+    const AgeingCutoff::Grid weights = grid.weights(freedom, largest);
     Index first = 0;
     Index last = AgeingCutoff::kPoints - 1;
     while (weights(first) < kNothing) ++first;
@@ -251,13 +265,14 @@ CutoffGrid resolved_grid(const LinesOverSticks& lines, double freedom) {
 
 AgeingCutoff cutoff_of(const LinesOverSticks& lines) {
   const double freedom = std::max(1.0, static_cast<double>(lines.count()) - 3.0);
-  const CutoffGrid grid = resolved_grid(lines, freedom);
+  const double largest = lines.largest_variance();
+  const CutoffGrid grid = resolved_grid(lines, freedom, largest);
   const double variance = std::max(1.0, grid.chi2.minCoeff() / freedom);
   AgeingCutoff cutoff;
   cutoff.longest = lines.longest_stick();
   cutoff.ratio = lines.longest_stick() / lines.shortest_stick();
   cutoff.values = grid.values;
-  cutoff.weights = grid.weights(variance);
+  cutoff.weights = grid.weights(freedom, largest);
   const double share = (cutoff.weights * grid.roots.square()).sum();
   cutoff.value = share / (1.0 - share);
   const double gain = (lines.with(0.0).chi2 - grid.chi2.minCoeff()) / variance;
@@ -300,8 +315,8 @@ AgeingLine ageing_line(const SweepSolution& solution, const AgeingCutoff& cutoff
   const LinesOverSticks lines(solution);
   const LinesOverSticks::Line best = lines.with(cutoff.value);
   AgeingLine line{best.difference_weights, best.rate_weights};
-  line.explains = within_own_errors(best.residuals, lines.own_variances());
-  line.squares = best.residuals.squaredNorm();
+  const double freedom = static_cast<double>(best.residuals.size()) - 2.0;
+  line.squares = std::max(best.residuals.squaredNorm(), freedom * lines.own_variances().mean());
   for (Index i = 0; i < AgeingCutoff::kPoints; ++i) {
     const LinesOverSticks::Line other = lines.with(cutoff.values(i));
     const Eigen::Vector3d move(other.difference - best.difference, other.rate - best.rate,

@@ -71,8 +71,7 @@ Eigen::VectorXd drifts_of(const SweepSolution& solution);
 /// (instrumental variable ln V).
 struct AgeingLine {
   Eigen::VectorXd difference_weights, rate_weights;  ///< of the recordings' own F_s - F_k(0+)
-  double squares = 0.0;                              ///< of the residuals of the recordings
-  bool explains = false;                             ///< what is left is within the recordings' own errors
+  double squares = 0.0;  ///< of the residuals of the recordings, at least those expected by their own errors
   /// Holds the covariance of D, rate and cut-off: how the line moves as the cut-off runs through its values.
   Eigen::Matrix3d by_cutoff = Eigen::Matrix3d::Zero();
 };

@@ -80,7 +80,7 @@ AgeingLine static_friction_line(const SweepSolution& solution, const StaticFrict
   const VectorXd differences = shared_or_own(differences_of(solution), solution.sweep.sharing.difference);
   const Index count = differences.size();
   return {VectorXd::Constant(count, 1.0 / static_cast<double>(count)), VectorXd::Zero(count),
-          squares_around_mean(differences), false};
+          squares_around_mean(differences)};
 }
 
 Selection selection_of(const SweepSolution& solution, const AgeingLine& line) {
@@ -160,11 +160,7 @@ Spread spread_of(const SweepData& data, const SweepSolution& solution, const std
   add_scatter_of_mean(spread, kLevel, levels, levels.mean());
   if (rises.size() > 0) add_scatter_of_mean(spread, kReloadForce, rises, rises.mean());
   add_scatter_of_mean(spread, kStiffnessDrift, drifts_of(solution), 1.0);  // of ln k
-  // Recordings whose cycles are those of the model, and that lie on the line within their own errors, count as the
-  // cycles do; otherwise they scatter, and they count.
-  if (!(kind && line.explains && !correlated)) {
-    add_scatter_around(line, differences_of(solution).mean(), kind, spread);
-  }
+  add_scatter_around(line, differences_of(solution).mean(), kind, spread);
   return spread;
 }
 
