@@ -4,6 +4,7 @@
 #include <boost/math/special_functions/lambert_w.hpp>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <random>
 #include <string>
 #include <utility>
 #include <vector>
@@ -254,6 +255,31 @@ TEST_CASE("ageing: three recordings whose static friction scatters predict by it
   const Estimate spacing = predicted({*sweep.fit->result.estimate, true, std::nullopt}, 0.1).periodic_displacement_m;
   CHECK(spacing.value.value_or(0.0) == Approx(test::spacing_m(truth, 0.1)).epsilon(0.08));
   CHECK(holds(spacing, test::spacing_m(truth, 0.1)));
+}
+
+TEST_CASE("ageing: three recordings that lie on a line by chance do not determine its rate") {
+  const std::vector<double> speeds{0.01, 0.02, 0.05};
+  std::mt19937_64 random(11);
+  std::normal_distribution<double> scatter_N(0.0, 0.08);
+  int given = 0;
+  int inside = 0;
+  for (std::uint64_t seed = 1; seed <= 24; ++seed) {
+    std::vector<SweepEntry> entries;
+    for (std::size_t i = 0; i < speeds.size(); ++i) {
+      test::SpeedSweep truth = ageing_slider();
+      truth.static_friction_N += scatter_N(random);
+      entries.push_back(test::record(truth, speeds[i], 3000 + 10 * seed + i));
+    }
+    const SweepAnalysis sweep = analyze_sweep(entries);
+    REQUIRE(sweep.fit);
+    const Parameter* const rate = sweep.fit->result.find(ParameterId::Ageing);
+    if (rate == nullptr || !rate->estimate.ci95) continue;
+    ++given;
+    inside += holds(rate->estimate, ageing_slider().ageing_N) ? 1 : 0;
+  }
+  CAPTURE(given, inside);
+  CHECK(given >= 8);
+  CHECK(inside + 3 >= given);  // four of 24 or more outside: 3 % by chance at 95 %
 }
 
 TEST_CASE("ageing: static friction that differs for another reason is not taken for it") {
