@@ -98,7 +98,7 @@ class Assembler {
         data_(data),
         outcome_(outcome),
         trend_(fit::trend_of_sweep(recordings, data, outcome.solution.held)),
-        values_(fit::with_trend(fit::with_damping_cut(outcome.values, outcome.spread.with_scatter()), trend_)),
+        values_(fit::with_trend(fit::with_damping_cut(outcome.values, outcome.spread), trend_)),
         model_(values_, data.units),
         bent_(bent_sticks_of(outcome.solution)),
         averaging_(data.motion ? 0.0 : fit::effect_of_averaging(recordings, outcome, data)),
@@ -311,7 +311,7 @@ class Assembler {
 
   [[nodiscard]] Estimate spacing_without(const std::optional<LeftOut>& one, double speed, double load) const {
     if (!one) return unknown("too few recordings to leave one out");
-    const fit::SlidingModel model(fit::with_damping_cut(one->values, one->spread.with_scatter()), data_.units);
+    const fit::SlidingModel model(fit::with_damping_cut(one->values, one->spread), data_.units);
     return spacing_of(model.spacing(speed, load), fit::Intervals(fit::spread_at(*one, speed)),
                       "no stick-slip at this speed by the others");
   }

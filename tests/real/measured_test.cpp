@@ -186,8 +186,8 @@ TEST_CASE("printed plastic: any three of the slow recordings predict faster ones
   const SweepAnalysis analysis = analyze_sweep(entries);
   REQUIRE(analysis.fit);
   REQUIRE(analysis.fit->result.estimate);
-  // Each of the three determines k to 40 % or better; with all degrees of freedom those of a line through three values,
-  // the interval of 50 to 150 mm/min extended over a factor of 18.
+  // Each of the three determines k to 40 % or better. When the one degree of freedom of the line of static friction
+  // applied to k, too, its interval from 50, 100 and 150 mm/min extended over a factor of 18.
   const Interval stiffness = *analysis.fit->result.find(ParameterId::Stiffness)->estimate.ci95;
   CHECK(stiffness.high < 2.0 * stiffness.low);
   for (const int speed_mm_min : {200, 300}) {

@@ -54,8 +54,7 @@ std::string words_for_rate(const LevelTrend& trend, const char* unit) {
 }  // namespace
 
 void state_trend(const TrendFindings& trend, const Conditions& conditions, Findings& findings) {
-  const CoordinateMatrix covariance = findings.intervals.spread().with_scatter();
-  const auto error_of = [&](Coordinate i) { return std::sqrt(std::max(0.0, covariance(i, i))); };
+  const auto error_of = [&](Coordinate i) { return findings.intervals.standard_error(Jet(0.0, static_cast<int>(i))); };
   const char* const unit = conditions.quantity == ForceQuantity::Force_N ? " N" : "";
   std::string of_stiffness;
   if (std::abs(trend.log_k_to_other) > error_of(kLogStiffness)) of_stiffness = note_on_stiffness(trend);

@@ -71,7 +71,8 @@ Eigen::VectorXd drifts_of(const SweepSolution& solution);
 /// (instrumental variable ln V).
 struct AgeingLine {
   Eigen::VectorXd difference_weights, rate_weights;  ///< of the recordings' own F_s - F_k(0+)
-  double squares = 0.0;  ///< of the residuals of the recordings, at least those expected by their own errors
+  /// Sum of squares of the residuals; of recordings that age, at least what their own errors make it.
+  double squares = 0.0;
   /// Holds the covariance of D, rate and cut-off: how the line moves as the cut-off runs through its values.
   Eigen::Matrix3d by_cutoff = Eigen::Matrix3d::Zero();
 };

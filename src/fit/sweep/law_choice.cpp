@@ -92,11 +92,13 @@ ChosenLaw choose_law(const SweepData& data, const SweepFits& fits, std::optional
   }
   const bool depends_on_speed = choice.velocity || !fits.coulomb;
   if (!depends_on_speed && !coulomb) coulomb = coulomb_outcome(data, fits);
-  SweepOutcome outcome = depends_on_speed ? outcome_of(data, settled(fits.velocity)) : *coulomb;
-  if (choice.velocity && coulomb && !allows_damping(outcome) && allows_damping(*coulomb)) {
+  std::optional<SweepOutcome> velocity;
+  if (depends_on_speed) velocity = outcome_of(data, settled(fits.velocity));
+  if (velocity && coulomb && !allows_damping(*velocity) && allows_damping(*coulomb)) {
     choice = {false, "residuals exceed the noise, and damping would be negative with F_k(v)"};
-    outcome = *std::move(coulomb);
+    velocity.reset();
   }
+  SweepOutcome outcome = velocity ? *std::move(velocity) : *std::move(coulomb);
   std::vector<Candidate> candidates = candidates_of(fits, choice);
   return {std::move(outcome), std::move(choice), std::move(candidates)};
 }

@@ -61,7 +61,7 @@ OwnVariance own_variance(double squares, double freedom, double usual_value) {
 }
 
 double squares_around_mean(const VectorXd& values) {
-  return values.size() == 0 ? 0.0 : (values.array() - values.mean()).square().sum();
+  return (values.array() - values.mean()).square().sum();
 }
 
 /// Adds the scatter of the mean of what the recordings have each for themselves.
@@ -171,7 +171,8 @@ void add_cutoff(const SweepSolution& solution, const StaticFriction& kind, Sprea
   spread.scatter.push_back(scatter);
 }
 
-Coordinates with_damping_cut(const Coordinates& values, const CoordinateMatrix& covariance) {
+Coordinates with_damping_cut(const Coordinates& values, const Spread& spread) {
+  const CoordinateMatrix covariance = spread.with_scatter();
   const double variance = covariance(kDamping, kDamping);
   if (!(values(kDamping) < 0.0) || !(variance > 0.0)) return values;
   Coordinates cut = values - covariance.col(kDamping) * (values(kDamping) / variance);
@@ -410,7 +411,7 @@ std::optional<double> left_out_difference(const SweepOutcome& outcome, std::size
   const SweepSolution& solution = outcome.solution;
   const BlockFit& blocks = solution.recordings[recording];
   const double speed = blocks.scales().speed_m_per_s;
-  const SlidingModel model(with_damping_cut(one->values, one->spread.with_scatter()), solution.sweep.units);
+  const SlidingModel model(with_damping_cut(one->values, one->spread), solution.sweep.units);
   const auto spacing = model.spacing(speed, solution.population(recording).load);
   if (!spacing) return std::nullopt;
   return std::log(spacing->a / (speed * median_period_s(blocks)));

@@ -24,7 +24,7 @@ void add_cutoff(const SweepSolution& solution, const StaticFriction& kind, Sprea
 
 /// zeta cannot be negative: where its best value is, the best values given zeta = 0 (by the covariance, to second
 /// order).
-Coordinates with_damping_cut(const Coordinates& values, const CoordinateMatrix& covariance);
+Coordinates with_damping_cut(const Coordinates& values, const Spread& spread);
 
 /// Holds the best coordinates and their spread along alpha. If alpha is known badly the sum of squares is no parabola
 /// along it: alpha times zeta is known better than either, and a second minimum may have the other sign. The spread is
