@@ -283,14 +283,16 @@ bool sticks_mostly(const FitResult& fit) {
   return 2.0 * slips_s < periods_s;
 }
 
-/// Stick-slip has straight sticks where it sticks for most of the time: round rises are none. Hum that the fit takes
-/// off rounds the rises of the trace, not those of the sticks.
+/// Stick-slip has straight sticks where it sticks for most of the time: round rises are none, and levels that wander.
+/// Hum that the fit takes off rounds the rises of the trace, not those of the sticks.
 Classification unless_round(Classification classification, const Recording& recording, const Estimates& estimates) {
   const Segmentation& segmentation = estimates.signals.segmentation;
   const bool has_long_sticks = slips_are_sudden(segmentation) || (estimates.fit && sticks_mostly(*estimates.fit));
   const bool is_slipping = classification.motion == MotionClass::StickSlip;
   const bool hums = estimates.fit && estimates.fit->diagnostics.hum_share > 0.0;
-  if (!is_slipping || hums || !has_long_sticks || !rises_are_round(recording, segmentation)) return classification;
+  if (!is_slipping || hums || !has_long_sticks) return classification;
+  if (!keeps_rhythm(segmentation) && rises_wander(recording, segmentation)) return irregular(segmentation);
+  if (!rises_are_round(recording, segmentation)) return classification;
   if (keeps_rhythm(segmentation)) {
     return {MotionClass::OscillatorySlip,
             "the force rises along round curves, not along straight sticks: an oscillation"};

@@ -19,17 +19,10 @@ namespace {
 /// Returns the slope of the sticks over the speed: median and scatter in the middle three fifths of the time between
 /// slips.
 Estimate stick_stiffness(const Recording& recording, const Segmentation& segmentation) {
-  constexpr std::size_t kFewestSamples = 5;
   const double speed_m_per_s = recording.conditions().speed_m_per_s;
   if (!recording.conditions().speed_is_known) return unknown(kNoSpeed);
   std::vector<double> slopes;
-  for (std::size_t i = 1; i < segmentation.slips.size(); ++i) {
-    const std::size_t begin = segmentation.slips[i - 1].trough;
-    const std::size_t fifth = (segmentation.slips[i].peak - begin) / 5;
-    if (3 * fifth < kFewestSamples) continue;
-    const auto of = [&](std::span<const double> values) { return values.subspan(begin + fifth, 3 * fifth); };
-    slopes.push_back(line_sums(of(recording.time_s()), of(recording.force())).slope() / speed_m_per_s);
-  }
+  for (const Rise& rise : rises_of(recording, segmentation)) slopes.push_back(rise.middle_N_per_s / speed_m_per_s);
   if (slopes.size() < thresholds::kFewestSlips) return unknown("too few sticks");
   const double middle = signal::median(slopes);
   std::vector<double> off;

@@ -169,6 +169,30 @@ bool slips_are_sudden(const Segmentation& segmentation) {
   return static_cast<double>(sudden) >= thresholds::kSuddenShare * static_cast<double>(ratios.size());
 }
 
+std::vector<Rise> rises_of(const Recording& recording, const Segmentation& segmentation) {
+  constexpr std::size_t kFewestSamples = 5;
+  std::vector<Rise> rises;
+  for (std::size_t i = 1; i < segmentation.slips.size(); ++i) {
+    const DetectedSlip& before = segmentation.slips[i - 1];
+    const DetectedSlip& after = segmentation.slips[i];
+    const std::size_t fifth = (after.peak - before.trough) / 5;
+    if (3 * fifth < kFewestSamples) continue;
+    const auto middle = [&](std::span<const double> values) {
+      return values.subspan(before.trough + fifth, 3 * fifth);
+    };
+    const double duration_s = recording.time_s()[after.peak] - recording.time_s()[before.trough];
+    rises.push_back({line_sums(middle(recording.time_s()), middle(recording.force())).slope(),
+                     (after.peak_force - before.trough_force) / duration_s});
+  }
+  return rises;
+}
+
+bool rises_wander(const Recording& recording, const Segmentation& segmentation) {
+  std::vector<double> shares;
+  for (const Rise& rise : rises_of(recording, segmentation)) shares.push_back(rise.middle_N_per_s / rise.whole_N_per_s);
+  return shares.size() >= thresholds::kFewestCycles && signal::median(std::move(shares)) < thresholds::kSteadyRise;
+}
+
 bool rises_are_round(const Recording& recording, const Segmentation& segmentation) {
   constexpr std::size_t kFewestSamples = 7;
   constexpr std::size_t kEnough = 64;  // rises, from the first to the last: more say the same

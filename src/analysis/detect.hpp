@@ -60,6 +60,18 @@ bool keeps_rhythm(const Segmentation& segmentation);
 /// Sudden falls after slow rises, in nearly all cycles: what makes stick-slip.
 bool slips_are_sudden(const Segmentation& segmentation);
 
+/// Slopes of the force from a trough to the next peak: over its middle three fifths, and from end to end [N/s].
+struct Rise {
+  double middle_N_per_s = 0.0;
+  double whole_N_per_s = 0.0;
+};
+
+/// Returns the rises between slips that have samples enough for a slope of their middle.
+std::vector<Rise> rises_of(const Recording& recording, const Segmentation& segmentation);
+
+/// Returns true if the force wanders between most slips instead of rising: the body does not stick there.
+bool rises_wander(const Recording& recording, const Segmentation& segmentation);
+
 /// Returns true if the rises between slips are round rather than straight: more of them are followed by half a cosine
 /// than by a line. Each line and each cosine has its own two parameters, so that rises of any sizes and slopes count
 /// alike.

@@ -332,6 +332,10 @@ inline constexpr std::size_t kFewFalls = 10;
 /// [1; convention]
 inline constexpr double kLargeSwing = 0.2;
 
+/// Slope of the middle of a rise over that from its trough to its peak, below which the force wanders and the body does
+/// not stick. [1; derived: half of the 0.5 that bent sticks keep (clutch), sticks that are straight have 1]
+inline constexpr double kSteadyRise = 0.25;
+
 /// Exponent of the second differences over their step, above which irregular swings are those of a body that moves.
 /// [1; derived: between 0.5 of a random walk and 1.5 of straight sticks]
 inline constexpr double kSmoothMotion = 1.0;

@@ -272,6 +272,28 @@ TEST_CASE("large irregular swings that ring are not steady sliding, those of noi
   CHECK(classify(recording, estimates).motion == MotionClass::SteadySliding);
 }
 
+TEST_CASE("sudden falls at random are slips where the force rises between them, and irregular where it wanders") {
+  const auto classified = [](const auto& rise) {
+    std::vector<double> force;
+    Estimates estimates;
+    for (std::size_t i = 0; i < 20; ++i) {
+      const std::size_t samples = i % 3 == 0 ? 50 : 150;
+      for (std::size_t j = 0; j < samples; ++j)
+        force.push_back(rise(static_cast<double>(j) / static_cast<double>(samples)));
+      const std::size_t peak = force.size() - 1;
+      for (std::size_t j = 0; j < 5; ++j) force.push_back(0.8 - 0.2 * static_cast<double>(j));
+      estimates.signals.segmentation.slips.push_back(
+          {peak, force.size() - 1, force[peak], 0.0, 0.01 * static_cast<double>(peak), 0.03, 0.3});
+    }
+    return classify(recorded(std::move(force), 100.0, 0.001), estimates);
+  };
+  CHECK(classified([](double x) { return x; }).motion == MotionClass::StickSlip);
+  const Classification wanders =
+      classified([](double x) { return std::min(1.0, 10.0 * x) + 0.2 * std::sin(30.0 * x); });
+  CHECK(wanders.motion == MotionClass::Undetermined);
+  CHECK(wanders.reason.find("irregular") != std::string::npos);
+}
+
 TEST_CASE("whether a fit that determines nothing is loose or worse does not change the answer") {
   const Recording recording = recorded(std::vector<double>(2000, 1.0), 100.0, 0.001);
   Estimates estimates;
