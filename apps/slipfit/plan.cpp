@@ -52,8 +52,9 @@ void run(const PlanArguments& arguments) {
   const slipfit::FitDocument document = value_or_fail(slipfit::read_fit_document(content, arguments.file));
   const auto plan = slipfit::plan_next(value_or_fail(slipfit::read_plan_basis(content, arguments.file)), target);
   if (!plan) refuse("{}: {}", arguments.file, plan.error().message);
-  const slipfit::PredictionSource source{arguments.file, document.conditional_on,
-                                         arguments.speed ? std::string(slipfit::unit_in(*arguments.speed)) : ""};
+  const slipfit::PredictionSource source{
+      arguments.file, document.conditional_on,
+      arguments.speed ? std::string(slipfit::unit_in(*arguments.speed)) : document.speed_unit};
   write_results(arguments.document, [&](const std::string&) {
     return arguments.document.json ? slipfit::to_json(plan.value(), source) + "\n"
                                    : slipfit::to_text(plan.value(), source);

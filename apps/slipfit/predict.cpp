@@ -57,7 +57,8 @@ Basis basis_from(const PredictArguments& arguments) {
   if (arguments.file) {
     slipfit::FitDocument document = document_from(arguments);
     return {std::move(document.model),
-            {*arguments.file, std::move(document.conditional_on), {}, std::move(document.warnings)}};
+            {*arguments.file, std::move(document.conditional_on), std::move(document.speed_unit),
+             std::move(document.warnings)}};
   }
   if (!stated) {
     refuse(
@@ -79,7 +80,7 @@ void run(const PredictArguments& arguments) {
       required(arguments.speeds, "--speeds", "A:B:N or a list, for example --speeds 1mm/s:1m/s:50")));
   check_outputs(arguments.document.outputs, arguments.file.value_or(""), "fit document");
   Basis basis = basis_from(arguments);
-  basis.source.speed_unit = speeds.unit;
+  if (!speeds.unit.empty()) basis.source.speed_unit = speeds.unit;
   const slipfit::Prediction prediction = slipfit::predict_at(basis.model, speeds.speeds_m_per_s);
   write_results(arguments.document, [&](const std::string& option) {
     if (option == "--csv") return slipfit::prediction_to_csv(prediction);

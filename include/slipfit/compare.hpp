@@ -30,6 +30,7 @@ struct ComparedFit {
   std::string group;   ///< of the manifest
   std::string motion;  ///< "stick_slip", ...
   std::optional<double> speed_m_per_s, normal_force_N;
+  std::string speed_unit;              ///< that the speed was given in; empty: m/s
   std::optional<double> zero_force_N;  ///< the reading without force, where it is stated
   std::vector<ComparedValue> values;   ///< in the order of compared_quantities()
 };
@@ -47,6 +48,9 @@ struct ComparisonSide {
 /// Pointer to a member of ComparedFit that describes a condition; the value is empty if no fit states it.
 using ComparedCondition = std::optional<double> ComparedFit::*;
 std::optional<Interval> range_of(const ComparisonSide& side, ComparedCondition condition);
+/// Returns "50 mm/min" or "10 to 50 mm/min", the speed in the unit that it was given in; empty if no fit states the
+/// condition.
+std::string condition_text(const ComparisonSide& side, ComparedCondition condition, const std::string& SI_unit);
 
 /// The origin of the interval of a difference (docs/validation.md gives the coverage of each).
 enum class ComparisonMethod {

@@ -10,6 +10,7 @@
 #include "compare/statistics.hpp"
 #include "core/unknown.hpp"
 #include "report/document/json_node.hpp"
+#include "report/format.hpp"
 #include "report/quantity_rows.hpp"
 
 namespace slipfit {
@@ -103,13 +104,6 @@ bool differ(const Comparison& comparison, ComparedCondition condition) {
   return std::max(range_a->high, range_b->high) > kRoundedRatio * std::min(range_a->low, range_b->low);
 }
 
-/// "0.02 to 0.05 m/s"
-std::string stated(const ComparisonSide& side, ComparedCondition condition, const char* unit) {
-  const Interval range = *range_of(side, condition);
-  return range.low == range.high ? fmt::format("{:.4g} {}", range.low, unit)
-                                 : fmt::format("{:.4g} to {:.4g} {}", range.low, range.high, unit);
-}
-
 void warn_of_conditions(Comparison& comparison) {
   const Fits& a = comparison.a.fits;
   const Fits& b = comparison.b.fits;
@@ -117,15 +111,15 @@ void warn_of_conditions(Comparison& comparison) {
     comparison.warnings.push_back(
         {"speeds_differ", fmt::format("driving speed of A: {}, of B: {}: quantities that depend on speed (frequency, "
                                       "spacing, friction) may differ for this reason alone",
-                                      stated(comparison.a, &ComparedFit::speed_m_per_s, "m/s"),
-                                      stated(comparison.b, &ComparedFit::speed_m_per_s, "m/s"))});
+                                      condition_text(comparison.a, &ComparedFit::speed_m_per_s, "m/s"),
+                                      condition_text(comparison.b, &ComparedFit::speed_m_per_s, "m/s"))});
   }
   if (differ(comparison, &ComparedFit::normal_force_N)) {
     comparison.warnings.push_back(
         {"loads_differ", fmt::format("normal force of A: {}, of B: {}: friction forces, frequency and spacing differ "
                                      "for this reason; coefficients of friction account for it",
-                                     stated(comparison.a, &ComparedFit::normal_force_N, "N"),
-                                     stated(comparison.b, &ComparedFit::normal_force_N, "N"))});
+                                     condition_text(comparison.a, &ComparedFit::normal_force_N, "N"),
+                                     condition_text(comparison.b, &ComparedFit::normal_force_N, "N"))});
   }
   const auto any_differs = [&a, &b](auto property) {
     const auto differs = [&](const ComparedFit& fit) { return property(fit) != property(a.front()); };
@@ -175,6 +169,16 @@ void warn_of_repeats(Comparison& comparison) {
 }
 
 }  // namespace
+
+std::string condition_text(const ComparisonSide& side, ComparedCondition condition, const std::string& SI_unit) {
+  const std::optional<Interval> range = range_of(side, condition);
+  if (!range) return {};
+  const DisplayUnit unit = condition == &ComparedFit::speed_m_per_s
+                               ? speed_unit(side.fits.front().speed_unit, range->high)
+                               : display_unit(SI_unit, range->high);
+  const std::string from = range->low < range->high ? fmt::format("{:.4g} to ", range->low * unit.per_SI) : "";
+  return fmt::format("{}{:.4g} {}", from, range->high * unit.per_SI, unit.unit);
+}
 
 std::optional<Interval> range_of(const ComparisonSide& side, ComparedCondition condition) {
   std::optional<Interval> range;
@@ -245,6 +249,7 @@ ComparedFit fit_from(const JsonNode& document) {
     if (!fit.source.empty()) fit.source += slides ? slides->json_text() : "null";
     fit.group = recording->text_at("group");
     fit.speed_m_per_s = recording->number_at("speed_m_per_s");
+    fit.speed_unit = recording->text_at("speed_unit");
     fit.normal_force_N = recording->number_at("normal_force_N");
     fit.zero_force_N = recording->number_at("zero_force_N");
   }

@@ -389,7 +389,9 @@ Result<Plan> plan_next(const PlanBasis& basis, const std::optional<PlanTarget>& 
   plan.value = wanted.value().a;
   plan.standard_error = planner.error_now(wanted.value());
   if (!(plan.standard_error > 0.0))
-    return Error{"bad_target", plan.target.name + " is held by the fit: there is nothing to narrow"};
+    return Error{"bad_target", plan.target.name +
+                                   " was held in this fit, by --fix or because the recordings do not "
+                                   "determine it: choose another parameter with --for"};
   plan.options = planner.options(wanted.value());
   if (!plan.options.empty()) plan.halving_s = planner.halving_s(wanted.value(), plan.options.front().recording);
   return plan;

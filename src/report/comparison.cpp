@@ -47,7 +47,7 @@ Json quantity_json(const QuantityComparison& quantity) {
 std::string p_text(std::optional<double> p) {
   constexpr double kSmallest = 1e-4;
   if (!p) return "-";
-  return *p < kSmallest ? "< 0.0001" : fmt::format("{:.2g}", *p);
+  return *p < kSmallest ? "<0.0001" : fmt::format("{:.2g}", *p);
 }
 
 std::string note_of(const QuantityComparison& quantity) {
@@ -65,16 +65,6 @@ std::string note_of(const QuantityComparison& quantity) {
   return note;
 }
 
-/// "10 mm/s", "10 to 50 mm/s"; empty if no recording states it.
-std::string range_text(const ComparisonSide& side, ComparedCondition condition, const std::string& SI_unit) {
-  const std::optional<Interval> range = range_of(side, condition);
-  if (!range) return {};
-  const DisplayUnit unit = display_unit(SI_unit, range->high);
-  const std::string from =
-      range->low < range->high ? fmt::format("{:.4g} to ", range->low * unit.per_SI) : std::string();
-  return fmt::format(", {}{:.4g} {}", from, range->high * unit.per_SI, unit.unit);
-}
-
 /// "fdm_232g (3 recordings, stick-slip, 1.67 mm/s, 2.28 N)".
 std::string side_text(const ComparisonSide& side) {
   std::vector<std::string> motions;
@@ -82,11 +72,13 @@ std::string side_text(const ComparisonSide& side) {
     const std::string motion = plain_words(fit.motion);
     if (std::ranges::find(motions, motion) == motions.end()) motions.push_back(motion);
   }
-  return fmt::format("{} ({}, {}{}{})", printable(side.name),
-                     side.fits.size() == 1 ? "one recording" : fmt::format("{} recordings", side.fits.size()),
-                     printable(fmt::format("{}", fmt::join(motions, ", "))),
-                     range_text(side, &ComparedFit::speed_m_per_s, "m/s"),
-                     range_text(side, &ComparedFit::normal_force_N, "N"));
+  std::string about = side.fits.size() == 1 ? "one recording" : fmt::format("{} recordings", side.fits.size());
+  about += ", " + printable(fmt::format("{}", fmt::join(motions, ", ")));
+  for (const std::string& condition : {condition_text(side, &ComparedFit::speed_m_per_s, "m/s"),
+                                       condition_text(side, &ComparedFit::normal_force_N, "N")}) {
+    if (!condition.empty()) about += ", " + condition;
+  }
+  return fmt::format("{} ({})", printable(side.name), about);
 }
 
 /// "A and B differ in 2 of 9 quantities: ..., ...".
@@ -176,13 +168,13 @@ std::string to_json(const Comparison& comparison) {
 std::string to_text(const Comparison& comparison) {
   std::string text = fmt::format("A: {}\nB: {}\n\n{}\n", side_text(comparison.a), side_text(comparison.b),
                                  comparison_sentence(comparison));
-  text += "  5 % level for all quantities together (p adjusted by Holm); 95 % intervals for each quantity\n\n";
-  Table table({Align::Left, Align::Right, Align::Right, Align::Right, Align::Left, Align::Right, Align::Left});
-  table.add({"", "A", "B", "B - A", "", "B / A", "p (Holm)"});
+  text += "  B - A is a 95 % interval; * differs at the 5 % level of all quantities together (p by Holm)\n\n";
+  Table table({Align::Left, Align::Right, Align::Right, Align::Right, Align::Right, Align::Right});
+  table.add({"", "A", "B", "B - A", "B / A", "p"});
   Footnotes notes;
   for (const ComparisonRow& row : comparison_rows(comparison)) {
-    table.add({row.words, row.a.value, row.b.value, row.difference.value, row.difference.interval, row.ratio.value,
-               row.p_adjusted + (row.differs ? " *" : "") + notes.mark(row.note)});
+    table.add({row.words + notes.mark(row.note), row.a.value, row.b.value, row.difference.interval, row.ratio.value,
+               row.p_adjusted + (row.differs ? " *" : "  ")});
   }
   text += table.text() + notes.text();
   const std::vector<NotCompared> left = not_compared(comparison);

@@ -66,12 +66,24 @@ std::size_t shown_width(std::string_view text) {
       std::ranges::count_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
 }
 
+namespace {
+
+/// End of the word that begins there: a number and what it counts are one.
+std::size_t end_of_word(const std::string& text, std::size_t begin) {
+  const std::size_t end = std::min(text.find(' ', begin), text.size());
+  const auto is_digit_at = [&](std::size_t i) { return i < text.size() && text[i] >= '0' && text[i] <= '9'; };
+  const bool has_unit = end > begin && end < text.size() && is_digit_at(end - 1) && !is_digit_at(end + 1);
+  return has_unit ? std::min(text.find(' ', end + 1), text.size()) : end;
+}
+
+}  // namespace
+
 std::vector<std::string> wrapped(const std::string& first, const std::string& text) {
   const std::size_t indent = shown_width(first);
   std::vector<std::string> lines{first};
   std::size_t begin = 0;
   while (begin < text.size()) {
-    const std::size_t end = std::min(text.find(' ', begin), text.size());
+    const std::size_t end = end_of_word(text, begin);
     const std::string word = text.substr(begin, end - begin);
     const bool is_empty = shown_width(lines.back()) == indent;
     if (!is_empty && shown_width(lines.back()) + 1 + shown_width(word) > kLineWidth) {

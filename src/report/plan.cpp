@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string_view>
@@ -10,6 +11,7 @@
 #include "report/format.hpp"
 #include "report/json_values.hpp"
 #include "slipfit/core/printable.hpp"
+#include "slipfit/report/quantities.hpp"
 #include "slipfit/report/text.hpp"
 
 namespace slipfit {
@@ -26,7 +28,7 @@ constexpr std::array<LimitWords, 6> kLimits{
      {"sampling", "too few samples in a slip: a faster clock"},
      {"cycles", "noise and scatter: more cycles"},
      {"misfit", "systematic differences: cycles or recordings disagree with the model"},
-     {"held", "fixed by --fix"}}};
+     {"held", "held, by --fix or because the recordings do not determine it"}}};
 
 const LimitWords& words_of(Limit limit) {
   return kLimits.at(static_cast<std::size_t>(limit));
@@ -35,7 +37,15 @@ const LimitWords& words_of(Limit limit) {
 std::string percent(double part, double whole) {
   if (!std::isfinite(part) || !std::isfinite(whole)) return "-";
   // Of a value at 0 (zeta at its bound) the error itself.
-  return whole == 0.0 ? fmt::format("{:.2g}", part) : fmt::format("{:.2g} %", 100.0 * part / std::abs(whole));
+  if (whole == 0.0) return rounded(part, part);
+  const double share = 100.0 * part / std::abs(whole);
+  return rounded(share, share) + " %";
+}
+
+/// Returns the words of the quantity with this key.
+std::string words_of(const std::string& key) {
+  const auto found = std::ranges::find(recording_quantities(), std::string_view(key), &Quantity::key);
+  return found == recording_quantities().end() ? key : std::string(found->words);
 }
 
 std::string options_text(const Plan& plan, const PredictionSource& source) {
@@ -60,7 +70,8 @@ std::string limits_text(const Plan& plan) {
   Table table({Align::Left, Align::Right, Align::Left});
   table.add({"parameter", "standard error", "limited by"});
   for (const ParameterLimit& limit : plan.limits) {
-    table.add({limit.name, percent(limit.standard_error, limit.value), std::string(words_of(limit.limit).words)});
+    table.add(
+        {words_of(limit.name), percent(limit.standard_error, limit.value), std::string(words_of(limit.limit).words)});
   }
   return "\nLimits of each parameter\n" + table.text();
 }
@@ -98,7 +109,7 @@ std::string to_json(const Plan& plan, const PredictionSource& source) {
 }
 
 std::string to_text(const Plan& plan, const PredictionSource& source) {
-  std::string text = fmt::format("To improve {}", plan.target.name);
+  std::string text = fmt::format("To improve the {}", words_of(plan.target.name));
   if (plan.target.speed_m_per_s)
     text +=
         " at " + quantity_text(*plan.target.speed_m_per_s, speed_unit(source.speed_unit, plan.target.speed_m_per_s));

@@ -32,7 +32,8 @@ TEST_CASE("plan starts from the worst known parameter and names what limits each
   CHECK(plan["halving_s"].get<double>() > 0.0);
   const test::ProgramResult text = run_slipfit({"plan", example.fit, "--for", "stiffness_N_per_m"});
   CHECK(text.exit_code == 0);
-  for (const char* const part : {"To improve stiffness_N_per_m", "Coulomb friction", "best first", "Limits of each"}) {
+  for (const char* const part :
+       {"To improve the tangential stiffness k, known", "Coulomb friction", "best first", "Limits of each"}) {
     CHECK_THAT(text.out, Catch::Contains(part));
   }
 }
@@ -47,7 +48,7 @@ TEST_CASE("plan reads joint fits, and narrows a predicted spacing") {
   CHECK(plan["options"].size() >= 3);
   const std::string file = example.folder.path("plan.txt");
   CHECK(run_slipfit({"plan", example.out, "--at", "0.1", "--out", file, "--quiet"}).out.empty());
-  CHECK_THAT(test::content_of(file), Catch::Contains("periodic_displacement_m at 100"));
+  CHECK_THAT(test::content_of(file), Catch::Contains("To improve the periodic displacement at 100"));
 }
 
 TEST_CASE("plan refuses what it cannot plan for") {

@@ -31,6 +31,12 @@ TEST_CASE("a fit document that does not determine the motion is refused with the
       },
       "natural_frequency_rad_per_s is unidentified, damping_ratio is unidentified (too slow)");
   refused([](json& d) { d["parameters"].erase("damping_ratio"); }, "damping_ratio is absent");
+  refused(
+      [](json& d) {
+        d["parameters"]["damping_ratio"]["status"] = "bounded";
+        d["correlation"]["values"][2] = 1.0;
+      },
+      "damping_ratio is not in [0, 1)");
   refused([](json& d) { d.erase("parameters"); }, "no parameters");
   refused([](json& d) { d["model"]["tier"] = "velocity"; }, "friction_slope_N_s_per_m");
   const std::string analysed = example.folder.file(

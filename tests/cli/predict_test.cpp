@@ -67,6 +67,20 @@ TEST_CASE("the round trip keeps the intervals also if the damping is at its boun
   }
 }
 
+TEST_CASE("a damping ratio that may be anything predicts with the one that the others were fitted with") {
+  const test::FitExample example;
+  json document = example.document();
+  document["correlation"]["values"][2] = 0.0;
+  REQUIRE(document["correlation"]["names"][2] == "damping_ratio");
+  document["parameters"]["damping_ratio"]["ci95"] = {0.0, 1.0};
+  const auto predicted_with = [&](const json& value, const char* const status) {
+    document["parameters"]["damping_ratio"]["value"] = value;
+    document["parameters"]["damping_ratio"]["status"] = status;
+    return predicted({example.folder.file(std::string(status) + ".json", document.dump())}, "20mm/s")["rows"];
+  };
+  CHECK(predicted_with(nullptr, "bounded") == predicted_with(0.0, "weak"));
+}
+
 TEST_CASE("model options give the exact motion without intervals, and above the critical speed there is none") {
   const json prediction = predicted(test::model_options(), "20mm/s,0.5");
   CHECK(prediction["source"] == "command line");

@@ -2,6 +2,8 @@
 
 #include <catch2/catch.hpp>
 #include <limits>
+#include <string>
+#include <vector>
 
 using slipfit::rounded;
 
@@ -74,4 +76,10 @@ TEST_CASE("speeds in notes are in the unit that the user gives speeds in") {
   CHECK(slipfit::in_speed_unit("an acceleration of 2 m/s2", "mm/s") == "an acceleration of 2 m/s2");
   CHECK(slipfit::in_speed_unit("in m/s", "mm/s") == "in m/s");
   CHECK(slipfit::in_speed_unit(" m/s", "mm/s") == " m/s");
+}
+
+TEST_CASE("a line does not end between a number and its unit") {
+  const std::string words(slipfit::kLineWidth - 6, 'x');
+  CHECK(slipfit::wrapped("", words + " by 7 % of it") == std::vector<std::string>{words + " by", "7 % of it"});
+  CHECK(slipfit::wrapped("", words + " at 7.") == std::vector<std::string>{words + " at 7."});
 }

@@ -23,6 +23,7 @@ struct FitDocument {
   PredictionModel model;
   std::vector<std::string> conditional_on;
   Warnings warnings;
+  std::string speed_unit;  ///< that the speed of its (first) recording was given in; empty: m/s
 };
 
 /// Reads a fit document. Errors: those of check_fit_document, cannot_predict (it leaves a parameter open on which the

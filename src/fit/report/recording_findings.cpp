@@ -122,9 +122,8 @@ bool is_damping_open(const FitResult& result, std::span<const SweepRecording> re
 void report_open_damping(FitResult& result) {
   for (Parameter& parameter : result.parameters) {
     if (parameter.id != ParameterId::DampingRatio) continue;
-    const double error = 1.0 / std::sqrt(12.0);  // anything between 0 and 1 is as likely
-    parameter.estimate = {0.0, error, Interval{0.0, 1.0}, "it can lie anywhere between 0 and 1: the fit takes 0"};
-    parameter.status = ParameterStatus::Weak;
+    parameter.estimate = {0.0, std::nullopt, Interval{0.0, 1.0}, "the recordings do not determine it; the fit takes 0"};
+    parameter.status = ParameterStatus::Bounded;
   }
   if (result.estimate) result.estimate->damping_identified = false;
   result.conditional_on.emplace_back("a damping ratio of 0, of which the recordings say nothing");

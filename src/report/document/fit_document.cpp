@@ -30,8 +30,10 @@ std::string key_of(ParameterId id) {
   return std::string(info(id).key);
 }
 
-bool is_known(const std::string& status) {
-  return status != name_of(ParameterStatus::Bounded) && status != name_of(ParameterStatus::Unidentified);
+/// Of a sweep whose damping ratio may be anything, the correlation has the one with which the others were fitted.
+bool predicts(ParameterId id, ParameterStatus status) {
+  if (status == ParameterStatus::Bounded) return id == ParameterId::DampingRatio;
+  return status != ParameterStatus::Unidentified;
 }
 
 /// Reads the model of a document that check_document accepted. Documents of earlier versions lack parts of it. Throws
@@ -92,9 +94,9 @@ class ModelReader {
         open.push_back(key + " is absent");
         continue;
       }
-      const std::string status = parameter(id).member("status").text();
-      if (is_known(status)) continue;
-      open.push_back(fmt::format("{} is {}", key, status));
+      const ParameterStatus status = status_of(parameter(id));
+      if (predicts(id, status)) continue;
+      open.push_back(fmt::format("{} is {}", key, name_of(status)));
       if (note.empty()) note = parameter(id).text_at("note");
     }
     if (open.empty()) return;
@@ -105,7 +107,12 @@ class ModelReader {
   [[nodiscard]] double needed_value(ParameterId id) const {
     const JsonNode value = parameter(id).member("value");
     if (id != ParameterId::DampingRatio) return value.positive();
-    return value.number_that([](double zeta) { return zeta >= 0.0 && zeta < 1.0; }, "a number in [0, 1)");
+    const auto is_damping = [](double zeta) { return zeta >= 0.0 && zeta < 1.0; };
+    if (status_of(parameter(id)) != ParameterStatus::Bounded)
+      return value.number_that(is_damping, "a number in [0, 1)");
+    const double zeta = working_value(id);
+    if (!is_damping(zeta)) refuse(key_of(id) + " is not in [0, 1)");
+    return zeta;
   }
 
   /// Returns the place of a parameter in the correlation, or nothing if the model does not contain it.
@@ -221,7 +228,8 @@ class ModelReader {
       if (error && std::ranges::find(kLogarithmic, id) != kLogarithmic.end() && *error > kLargestLogError) {
         errors[one.row].fail(fmt::format("a standard error of a logarithm, at most {}", kLargestLogError));
       }
-      if (!error || (has_only_four && parameter(id).member("se").is_null())) return {};
+      const bool is_open = status_of(parameter(id)) == ParameterStatus::Bounded;
+      if (!error || (has_only_four && !is_open && parameter(id).member("se").is_null())) return {};
       one.standard_error = *error;
     }
     return all;
@@ -265,8 +273,14 @@ class ModelReader {
   const std::string& name_;
 };
 
+std::string speed_unit_in(const JsonNode& document) {
+  const std::vector<JsonNode> members = document.elements_of("recordings");
+  const JsonNode& first = members.empty() ? document : members.front();
+  return first.has("recording") ? first.member("recording").text_at("speed_unit") : std::string();
+}
+
 FitDocument fit_document_from(const JsonNode& document, const std::string& name) {
-  FitDocument fit{ModelReader(document, name).model(), {}, warnings_in(document)};
+  FitDocument fit{ModelReader(document, name).model(), {}, warnings_in(document), speed_unit_in(document)};
   for (const JsonNode& condition : document.elements_of("model", "conditional_on")) {
     fit.conditional_on.push_back(condition.text());
   }
