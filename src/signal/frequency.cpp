@@ -284,7 +284,7 @@ SpectralFrequency find_frequency(const Recording& recording, const Spectrum& spe
   const double step_s = recording.duration_s() / static_cast<double>(recording.size() - 1);
   const double resolution_Hz = 1.0 / (recording.duration_s() + step_s);
   std::vector<MainsLine> mains = signal::find_mains(spectrum.power, spectrum.bin_Hz, resolution_Hz);
-  if (!mains.empty()) mains = signal::without_bursts(std::move(mains), signal::resample(recording, held));
+  if (!mains.empty()) mains = signal::lasting_mains(std::move(mains), signal::resample(recording, held));
   const Bands bands = prepare(recording, spectrum, held, signal::without_hinted(mains, hint_Hz));
   Comb comb;
   if (hint_Hz) comb = best_visible(bands, {0.7 * *hint_Hz, 1.4 * *hint_Hz});

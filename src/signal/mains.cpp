@@ -42,9 +42,11 @@ double background_level(std::span<const double> power, double bin_Hz, double res
   return median(std::move(beside));
 }
 
-/// The mains keeps its frequency to 0.1 %; the top of a peak is known to a fraction of the resolution.
+constexpr double kWander = 1e-3;  // the mains keeps its frequency to 0.1 %
+
+/// The top of a peak is known to a fraction of the resolution.
 double tolerance_of(double resolution_Hz, double target_Hz) {
-  return std::max(0.3 * resolution_Hz, 1e-3 * target_Hz);
+  return std::max(0.3 * resolution_Hz, kWander * target_Hz);
 }
 
 bool is_at(double frequency_Hz, double target_Hz, double resolution_Hz) {
@@ -83,11 +85,12 @@ std::optional<MainsLine> line_at(std::span<const double> power, double bin_Hz, d
   const double offset = peak_offset(power[peak - 1], power[peak], power[peak + 1]);
   const double frequency = (static_cast<double>(peak) + offset) * bin_Hz;
   if (std::abs(frequency - target_Hz) > tolerance) return std::nullopt;
-  if (power[peak] <=
-      prominence(tolerance / resolution_Hz) * background_level(power, bin_Hz, resolution_Hz, frequency)) {
-    return std::nullopt;
-  }
-  return MainsLine{frequency, 0.0, 1, half_width(resolution_Hz, frequency)};
+  const double background = background_level(power, bin_Hz, resolution_Hz, frequency);
+  if (power[peak] <= prominence(tolerance / resolution_Hz) * background) return std::nullopt;
+  // The further the peak stands out, the better its frequency is known.
+  constexpr double kInterpolation = 0.05;  // of the resolution: error of the parabola on a peak of Hann's window
+  const double error_Hz = (kInterpolation + std::sqrt(background / power[peak])) * resolution_Hz;
+  return MainsLine{frequency, 0.0, 1, half_width(resolution_Hz, frequency), error_Hz};
 }
 
 }  // namespace
@@ -112,7 +115,7 @@ std::vector<MainsLine> find_mains(std::span<const double> power, double bin_Hz, 
       // line at such a place is of something else.
       if (order > 3 && !has_lower) continue;
       has_lower = true;
-      lines.push_back({line->frequency_Hz, mains_Hz, order, line->width_Hz});
+      lines.push_back({line->frequency_Hz, mains_Hz, order, line->width_Hz, line->error_Hz});
       total += power[static_cast<std::size_t>(std::lround(line->frequency_Hz / bin_Hz))];
     }
     if (total > best_power) {
@@ -216,7 +219,7 @@ std::complex<double> amplitude_of(std::span<const double> values, const std::vec
 /// mains keeps its phase in each of them.
 double largest_quarter(const UniformTrace& trace, double frequency_Hz) {
   constexpr std::size_t kQuarters = 4;
-  constexpr double kPeriods = 250.0;  // the mains keeps its frequency to 0.1 %
+  constexpr double kPeriods = 0.25 / kWander;
   const auto samples = static_cast<double>(trace.force.size());
   const double periods = frequency_Hz * trace.step_s * samples;
   const auto in_quarter = static_cast<std::size_t>(std::ceil(periods / (kPeriods * kQuarters)));
@@ -238,9 +241,11 @@ double largest_quarter(const UniformTrace& trace, double frequency_Hz) {
 
 }  // namespace
 
-std::vector<MainsLine> without_bursts(std::vector<MainsLine> lines, const UniformTrace& trace) {
+std::vector<MainsLine> lasting_mains(std::vector<MainsLine> lines, const UniformTrace& trace) {
   constexpr double kFewestPeriods = 16.0;  // four in a quarter: its window has to resolve them
   std::erase_if(lines, [&](const MainsLine& line) {
+    const double mains_Hz = line.mains_Hz * line.order;
+    if (std::abs(line.frequency_Hz - mains_Hz) > std::max(line.error_Hz, kWander * mains_Hz)) return true;
     const double periods = line.frequency_Hz * trace.step_s * static_cast<double>(trace.force.size());
     return periods >= kFewestPeriods && largest_quarter(trace, line.frequency_Hz) > thresholds::kBurst;
   });
@@ -257,7 +262,7 @@ Dehummed without_mains(const Recording& recording) {
   Dehummed result;
   result.force.assign(recording.force().begin(), recording.force().end());
   const double bin_Hz = 1.0 / (static_cast<double>(length) * even.step_s);
-  for (const MainsLine& line : without_bursts(find_mains(power, bin_Hz, 1.0 / recording.duration_s()), even)) {
+  for (const MainsLine& line : lasting_mains(find_mains(power, bin_Hz, 1.0 / recording.duration_s()), even)) {
     const double omega = kTurn * line.frequency_Hz;
     const std::complex<double> amplitude = amplitude_of(even.force, window, mean, omega * even.step_s);
     const double size = std::abs(amplitude);

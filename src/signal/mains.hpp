@@ -16,6 +16,7 @@ struct MainsLine {
   double mains_Hz = 0.0;  ///< 50 or 60
   int order = 1;
   double width_Hz = 0.0;  ///< half width that the line takes
+  double error_Hz = 0.0;  ///< up to which its frequency is known, in the spectrum of a trace
 };
 
 /// Lines four times (in amplitude) above their neighbours at multiples of 50 or of 60 Hz, whichever has more power in
@@ -28,8 +29,9 @@ std::vector<MainsLine> find_mains(std::span<const double> power, double bin_Hz, 
 std::optional<double> strongest_line(std::span<const double> power, double bin_Hz, double resolution_Hz,
                                      double lowest_Hz);
 
-/// The lines whose energy is spread over the recording: one that dies out or comes once is a motion's, not the mains'.
-std::vector<MainsLine> without_bursts(std::vector<MainsLine> lines, const UniformTrace& trace);
+/// Returns the lines that are the mains' in the spectrum of this trace: at its frequency within their errors, and with
+/// their energy spread over the recording. A motion's may be near it, die out, or come once.
+std::vector<MainsLine> lasting_mains(std::vector<MainsLine> lines, const UniformTrace& trace);
 
 /// "mains 50 Hz", "3rd harmonic of 50 Hz mains".
 std::string describe(const MainsLine& line);

@@ -87,6 +87,21 @@ TEST_CASE("a wave at the frequency of the mains that dies out is not hum") {
   check_frequency(found, 60.02, 0.01);
 }
 
+TEST_CASE("ten periods beside the mains are no hum where the peak shows the difference") {
+  for (const double f : {48.7, 51.3, 61.4}) {  // a quarter of the resolution away
+    CAPTURE(f);
+    traces::Generator generator(10);
+    const std::vector<double> time_s = traces::clock(215, 1024.0);
+    std::vector<double> force(time_s.size(), 3.0);
+    traces::add_sine(force, time_s, f, 1.0);
+    traces::add_sine(force, time_s, 2.0 * f, 0.3);
+    traces::add_noise(force, 0.03, generator);
+    const auto found = find(traces::recording(time_s, force));
+    CHECK(found.suspicious_lines.empty());
+    check_frequency(found, f, 0.01);
+  }
+}
+
 TEST_CASE("hum in the gap between two lines of the comb does not count as background") {
   traces::Generator generator(17);
   const std::vector<double> time_s = traces::clock(8000, 1000.0);
