@@ -142,10 +142,13 @@ const BlockFit& reported(const TierFits& fits) {
 
 }  // namespace
 
-std::optional<Bend> bend_of(const BlockFit& blocks) {
+std::optional<Bend> bend_of(const BlockFit& blocks, std::size_t recordings) {
+  // As unlikely by chance in the largest of many recordings as in one.
+  const double sigmas =
+      std::sqrt(std::pow(thresholds::kClearSigmas, 2) + 2.0 * std::log(static_cast<double>(recordings)));
   std::optional<Bend> largest;
   const auto add = [&](const std::optional<RampBend>& seen, double share, const char* where) {
-    if (!seen || !(std::abs(seen->log_ratio) > thresholds::kClearSigmas * seen->standard_error)) return;
+    if (!seen || !(std::abs(seen->log_ratio) > sigmas * seen->standard_error)) return;
     const Bend bend{seen->log_ratio, share * std::abs(seen->log_ratio), where};
     if (!largest || bend.error > largest->error) largest = bend;
   };

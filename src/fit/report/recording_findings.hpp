@@ -26,8 +26,8 @@ struct Bend {
 /// Returns the bend that moves k most; the result is empty where none is clear. The slope of a bent ramp depends on the
 /// part that is used, by half of the difference between its two halves. Creep before a slip flattens a stick, and a
 /// rise of the force after a slip steepens its beginning: where a rise is fitted, it takes up part of the creep, and k
-/// may be wrong by all of the bend in the second half of the sticks.
-std::optional<Bend> bend_of(const BlockFit& blocks);
+/// may be wrong by all of the bend in the second half of the sticks. `recordings`: how many are looked at for bends.
+std::optional<Bend> bend_of(const BlockFit& blocks, std::size_t recordings = 1);
 
 /// The average of the sensor that a sweep found.
 std::optional<FittedAverage> found_average(const FitResult& result);
