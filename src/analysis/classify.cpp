@@ -192,7 +192,9 @@ std::optional<Classification> as_round_swings(const Segmentation& segmentation, 
 }
 
 /// Returns how much better sticks and slips fit the samples than three sines do: twice the difference of the
-/// log-likelihoods, each at its best noise, over the cycles that the fit could use.
+/// log-likelihoods, each at its best noise, over the cycles that the fit could use, in standard deviations of this
+/// difference where both are as good. Its variance is twice the number of parameters: some two for each cycle in
+/// either.
 std::optional<double> evidence_of_sticks(const Recording& recording, const Signals& signals, const FitResult& fit,
                                          std::size_t used) {
   const double counted_Hz = 1.0 / signal::median(slip_intervals_s(signals.segmentation));
@@ -206,12 +208,14 @@ std::optional<double> evidence_of_sticks(const Recording& recording, const Signa
   }
   if (!harmonic_rms || !(fit.residual.rms > 0.0)) return std::nullopt;
   const double share = static_cast<double>(used) / static_cast<double>(fit.cycles.size());
-  return 2.0 * share * static_cast<double>(recording.size()) * std::log(*harmonic_rms / fit.residual.rms);
+  const double evidence =
+      2.0 * share * static_cast<double>(recording.size()) * std::log(*harmonic_rms / fit.residual.rms);
+  return evidence / std::sqrt(2.0 * 4.0 * static_cast<double>(used));
 }
 
 /// Three sines follow the swings as well as sticks and slips do: no sticks have to be there.
 Classification as_wave(double evidence) {
-  if (evidence < -thresholds::kEvidence) {
+  if (evidence < -thresholds::kClearSigmas) {
     return {MotionClass::OscillatorySlip, "three sines fit better than sticks and slips: an oscillation"};
   }
   return {MotionClass::Undetermined, "three sines fit as well as sticks and slips: the motion may be an oscillation"};
@@ -263,7 +267,7 @@ Classification classify_by_fit(const Recording& recording, const Estimates& esti
   if (auto round = as_round_swings(segmentation, e)) return *round;
   const std::optional<double> evidence =
       sudden ? std::nullopt : evidence_of_sticks(recording, estimates.signals, *estimates.fit, used);
-  if (evidence && *evidence < thresholds::kEvidence) return as_wave(*evidence);
+  if (evidence && *evidence < thresholds::kClearSigmas) return as_wave(*evidence);
   if (!close && !sudden) return without_model(recording, estimates.signals);
   return {MotionClass::StickSlip,
           fmt::format("{} cycles of straight sticks and quick slips, residual {:.1f} % of the friction drop", used,

@@ -176,11 +176,13 @@ std::vector<Rise> rises_of(const Recording& recording, const Segmentation& segme
     const DetectedSlip& before = segmentation.slips[i - 1];
     const DetectedSlip& after = segmentation.slips[i];
     const std::size_t fifth = (after.peak - before.trough) / 5;
-    if (3 * fifth < kFewestSamples) continue;
+    const double duration_s = recording.time_s()[after.peak] - recording.time_s()[before.trough];
+    const auto steps = static_cast<double>(after.peak - before.trough);
+    const bool has_gap = duration_s > (steps + thresholds::kGapSteps) * recording.sample_interval_s();
+    if (3 * fifth < kFewestSamples || has_gap) continue;
     const auto middle = [&](std::span<const double> values) {
       return values.subspan(before.trough + fifth, 3 * fifth);
     };
-    const double duration_s = recording.time_s()[after.peak] - recording.time_s()[before.trough];
     rises.push_back({line_sums(middle(recording.time_s()), middle(recording.force())).slope(),
                      (after.peak_force - before.trough_force) / duration_s});
   }

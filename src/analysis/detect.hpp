@@ -66,7 +66,7 @@ struct Rise {
   double whole_N_per_s = 0.0;
 };
 
-/// Returns the rises between slips that have samples enough for a slope of their middle.
+/// Returns the rises between slips that have no gap, and samples enough for a slope of their middle.
 std::vector<Rise> rises_of(const Recording& recording, const Segmentation& segmentation);
 
 /// Returns true if the force wanders between most slips instead of rising: the body does not stick there.

@@ -102,8 +102,8 @@ inline constexpr double kSineFit = 0.05;
 /// the begin of a stick leaves some 1/64 of its share of the cycle, so that this is a stick of a hundredth]
 inline constexpr double kPureWave = 1e-4;
 
-/// Twice the logarithm of the likelihood of sticks and slips over that of three harmonics, or of a straight rise over
-/// that of half a cosine, below which the two cannot be distinguished. [1; convention: odds of ten to one]
+/// Twice the logarithm of the likelihood of a straight rise over that of half a cosine, or of a fit with a lag over
+/// that without, below which the two cannot be distinguished. [1; convention: odds of ten to one]
 inline constexpr double kEvidence = 4.6;
 
 /// Share of the recording that cycles have to cover: swings that end earlier died out. [1; convention]

@@ -58,7 +58,8 @@ BentSticks bent_sticks_of(const SweepSolution& solution) {
   BentSticks bent;
   for (const fit::BlockFit& recording : solution.recordings) {
     const bool bends_in_model = recording.scales().relaxing.has_value();
-    const std::optional<fit::Bend> bend = bends_in_model ? std::nullopt : fit::bend_of(recording, solution.recordings.size());
+    const std::optional<fit::Bend> bend =
+        bends_in_model ? std::nullopt : fit::bend_of(recording, solution.recordings.size());
     if (!bend) continue;
     ++bent.recordings;
     bent.largest = std::max(bent.largest, std::abs(bend->log_ratio));
