@@ -196,6 +196,8 @@ constexpr Ids concerned_by(About about) {
       return ids(Id::SlipDistance);
     case About::Rise:
       return ids(Id::Mass, Id::SlipDistance);
+    case About::RiseAlone:
+      return ids(Id::ReloadForce, Id::ReloadLength);
     case About::FrictionAtSpeeds:
       return kDifferences | kKinetic | kDampings | ids(Id::SlipDistance);
     case About::Level:
@@ -274,6 +276,9 @@ class Reporter {
           {About::Sampling, ParameterStatus::Weak, too_few_samples(f_.samples_per_slip, f_.sample_interval_s)});
     }
     if (model_.reload) caveats_.push_back({About::Rise, ParameterStatus::Weak, kRiseOfTimeOrDistance});
+    if (model_.reload && is_one_speed) {
+      caveats_.push_back({About::RiseAlone, ParameterStatus::Conditional, kRiseOfDistance});
+    }
     if (is_one_speed || f_.load_response) {
       caveats_.push_back(
           {About::FrictionAtSpeeds, ParameterStatus::Conditional, is_one_speed ? kOneSpeed : kLoadFollows});

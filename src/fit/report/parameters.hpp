@@ -52,6 +52,10 @@ inline constexpr const char* kInMiddle = "in the middle of the path, along which
 inline constexpr const char* kRiseOfTimeOrDistance =
     "the rise of the force after a slip may be the relaxation of the contact, whose stiffness in the slip is larger: "
     "the interval includes both";
+/// Says what A and l of one recording rest on.
+inline constexpr const char* kRiseOfDistance =
+    "assumes that the force recovers over a distance of sliding: a contact that relaxes does the same over a time, and "
+    "one driving speed cannot distinguish them";
 
 /// Warns that an average of the samples is fitted.
 Warning averaged_warning(double average_s);
@@ -81,7 +85,8 @@ enum class About {
   Frequency,         ///< w_n that is read from the slips
   Average,           ///< of the sensor
   SlipDistance,      ///< of friction that weakens
-  Rise,              ///< of the force after a slip: of time or of distance
+  Rise,              ///< what rests on the rise of the force after a slip: of time or of distance
+  RiseAlone,         ///< this rise
   FrictionAtSpeeds,  ///< kinetic friction at other speeds
   SameWithinSlip,    ///< friction and load within a slip
   Level,             ///< absolute forces
