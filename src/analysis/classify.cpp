@@ -191,6 +191,24 @@ std::optional<Classification> as_round_swings(const Segmentation& segmentation, 
   return std::nullopt;
 }
 
+/// Returns the recording from its first slip to the last with its time counted in cycles: a wave whose period changes
+/// has a period of 1.
+std::optional<Recording> over_cycles(const Recording& recording, const Segmentation& segmentation) {
+  const std::vector<DetectedSlip>& slips = segmentation.slips;
+  std::vector<double> cycles, force;
+  std::size_t before = 0;
+  for (std::size_t i = 0; i < recording.size(); ++i) {
+    const double time_s = recording.time_s()[i];
+    if (time_s < slips.front().middle_s || time_s > slips.back().middle_s) continue;
+    while (before + 2 < slips.size() && time_s > slips[before + 1].middle_s) ++before;
+    const double period_s = slips[before + 1].middle_s - slips[before].middle_s;
+    cycles.push_back(static_cast<double>(before) + (time_s - slips[before].middle_s) / period_s);
+    force.push_back(recording.force()[i]);
+  }
+  const auto counted = Recording::create(std::move(cycles), std::move(force), recording.conditions());
+  return counted ? std::optional(counted.value()) : std::nullopt;
+}
+
 /// Returns how much better sticks and slips fit the samples than three sines do: twice the difference of the
 /// log-likelihoods, each at its best noise, over the cycles that the fit could use, in standard deviations of this
 /// difference where both are as good. Its variance is twice the number of parameters: some two for each cycle in
@@ -204,6 +222,10 @@ std::optional<double> evidence_of_sticks(const Recording& recording, const Signa
   const std::optional<double>& spectral_Hz = signals.spectral.value_Hz;
   if (spectral_Hz && !(std::abs(*spectral_Hz / counted_Hz - 1.0) < kSameWave)) {
     const std::optional<double> other = harmonic_residual_rms(recording, *spectral_Hz);
+    if (other) harmonic_rms = std::min(*other, harmonic_rms.value_or(*other));
+  }
+  if (const std::optional<Recording> counted = over_cycles(recording, signals.segmentation)) {
+    const std::optional<double> other = harmonic_residual_rms(*counted, 1.0);
     if (other) harmonic_rms = std::min(*other, harmonic_rms.value_or(*other));
   }
   if (!harmonic_rms || !(fit.residual.rms > 0.0)) return std::nullopt;
