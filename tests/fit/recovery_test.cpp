@@ -3,6 +3,8 @@
 #include <cmath>
 #include <random>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "scene.hpp"
 #include "support/holds.hpp"
@@ -215,4 +217,27 @@ TEST_CASE("noise that is larger in and after the slips is in the intervals") {
     held += test::holds(parameter(analysis, "natural_frequency_rad_per_s").estimate, s.omega) ? 1 : 0;
   }
   CHECK(held >= 16);  // 16 and more of 20 at 95 %: all but 0.3 % of the time
+}
+
+TEST_CASE("noise whose neighbours are correlated is no misfit of the slips") {
+  for (const std::uint64_t seed : {1U, 2U, 3U}) {
+    Scene s;
+    s.seed = seed;
+    const Recording exact = record(s);
+    std::mt19937_64 random(seed);
+    std::normal_distribution<double> normal(0.0, 0.01 * (s.static_N - s.kinetic_N));
+    std::vector<double> force(exact.force().begin(), exact.force().end());
+    double noise_N = 0.0;
+    for (double& value : force) {
+      noise_N = 0.9 * noise_N + std::sqrt(1.0 - 0.81) * normal(random);
+      value += noise_N;
+    }
+    const Analysis analysis = analyze_and_fit(
+        Recording::create({exact.time_s().begin(), exact.time_s().end()}, std::move(force), exact.conditions())
+            .value());
+    check_truth(analysis, s);
+    CHECK(analysis.fit->residual.reduced_chi2 > 3.0);  // noise is measured by the differences of neighbours
+    CHECK(std::ranges::none_of(analysis.warnings, [](const Warning& w) { return w.code == "model_misfit"; }));
+    CHECK(parameter(analysis, "natural_frequency_rad_per_s").status == ParameterStatus::Conditional);
+  }
 }

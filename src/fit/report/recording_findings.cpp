@@ -340,14 +340,21 @@ std::string caveat_of_fall(const Conditions& conditions, const DampedFit& fit, c
   return is_too_large ? open_fall + "; " + stated_mass() : open_fall;
 }
 
+/// Returns whether the slips of all cycles deviate from the model in the same way, however little: what is left of
+/// noise that is correlated, or of a surface, is different in each cycle, and the scatter of the cycles includes it.
+bool repeats_in_slips(const DampedFit& fit) {
+  constexpr double kByChance = 2.0;  // twice what the scatter of the cycles leaves in the mean of all
+  if (!fit.uncertainty.from_cycles) return true;
+  const StackedResidual stack = stacked_residual(fit.blocks, fit.blocks);
+  return stack.size > kByChance * stack.by_chance;
+}
+
 /// States why what is read from the slip is not determined, or not surely.
 void state_caveats(const Conditions& conditions, const TierFits& fits, const Resolution& resolution,
                    const Residual& residual, Findings& findings) {
-  // White residuals that exceed the noise are noise of the slips, which the scatter of the cycles has in the
-  // covariance.
   const bool coloured = !residual.whiteness_p || *residual.whiteness_p < thresholds::kProven;
-  const bool large = residual.reduced_chi2 && *residual.reduced_chi2 > thresholds::kLargeChi2 &&
-                     (coloured || !fits.damped.uncertainty.from_cycles);
+  const bool large =
+      residual.reduced_chi2 && *residual.reduced_chi2 > thresholds::kLargeChi2 && repeats_in_slips(fits.damped);
   if (large) {
     findings.warnings.push_back(
         {"model_misfit",
