@@ -47,6 +47,11 @@ double residual_rms(const SweepSolution& solution) {
   return std::sqrt(square / static_cast<double>(solution.cycles()));
 }
 
+const char* name_of_change(fit::FrictionLaw law) {
+  if (law == fit::FrictionLaw::Hyperbolic) return "hyperbolically";
+  return law == fit::FrictionLaw::Exponential ? "exponentially" : "logarithmically";
+}
+
 /// Sticks of a sweep that bend.
 struct BentSticks {
   std::size_t recordings = 0;
@@ -235,9 +240,8 @@ class Assembler {
     findings.add(
         fit::About::Difference, ParameterStatus::Weak,
         fmt::format(
-            "kinetic friction that changes {}ally with speed explains the recordings equally well and gives {:.3g} N",
-            other.law == fit::FrictionLaw::Hyperbolic ? "hyperbolic" : "logarithmic",
-            data_.units.force * other.difference));
+            "kinetic friction that changes {} with speed explains the recordings equally well and gives {:.3g} N",
+            name_of_change(other.law), data_.units.force * other.difference));
   }
 
   /// zeta cannot be negative: its interval is cut at 0.
@@ -247,6 +251,10 @@ class Assembler {
     Estimate zeta = intervals_.interval_of(free);
     if (zeta.ci95->high <= 0.0 && !outcome_.solution.held[fit::kDamping]) {
       return unknown("the best value is negative: the slips are not damped oscillations");
+    }
+    if (outcome_.other_law && !outcome_.solution.held[fit::kDamping]) {
+      const double other = std::min(1.0, free.a + outcome_.other_law->move(fit::kDamping));
+      zeta.ci95 = Interval{std::min(zeta.ci95->low, other), std::max(zeta.ci95->high, other)};
     }
     zeta.value = std::max(0.0, *zeta.value);
     zeta.ci95->low = std::max(0.0, zeta.ci95->low);

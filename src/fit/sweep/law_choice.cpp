@@ -80,6 +80,22 @@ SweepOutcome coulomb_outcome(const SweepData& data, const SweepFits& fits) {
   return is_better ? std::move(growing) : std::move(same);
 }
 
+/// How far friction that depends on the speed moves zeta, F_k and F_s - F_k, to the far ends of their intervals there.
+/// Under any law F_s - F_k lies between half of the drop and the drop.
+OtherLaw law_of(const SweepData& data, const SweepSolution& velocity, const SweepOutcome& coulomb) {
+  const StaticFriction& kind = coulomb.static_friction;
+  const Coordinates values = coordinates_of(velocity, kind);
+  const CoordinateMatrix covariance = spread_of(data, velocity, normals_of(velocity.problem()), kind).with_scatter();
+  OtherLaw other{FrictionLaw::Exponential, values(kDifference), Coordinates::Zero()};
+  for (const auto i : {kDamping, kLevel, kDifference}) {
+    const double move = values(i) - coulomb.values(i);
+    other.move(i) = move + std::copysign(kNormalQuantile * std::sqrt(covariance(i, i)), move);
+  }
+  const double most = std::log(2.0) * coulomb.values(kDifference);
+  other.move(kDifference) = std::clamp(other.move(kDifference), -most, most);
+  return other;
+}
+
 }  // namespace
 
 ChosenLaw choose_law(const SweepData& data, const SweepFits& fits, std::optional<Tier> tier, double speeds) {
@@ -99,6 +115,11 @@ ChosenLaw choose_law(const SweepData& data, const SweepFits& fits, std::optional
     velocity.reset();
   }
   SweepOutcome outcome = velocity ? *std::move(velocity) : *std::move(coulomb);
+  // Where residuals exceed the noise, neither chance nor recordings left out show that friction does not depend on the
+  // speed.
+  if (!velocity && !tier && is_misfit(outcome.solution)) {
+    outcome.other_law = law_of(data, fits.velocity, outcome);
+  }
   std::vector<Candidate> candidates = candidates_of(fits, choice);
   return {std::move(outcome), std::move(choice), std::move(candidates)};
 }

@@ -44,7 +44,7 @@ AlongRate profile_rate(const SweepSolution& solution, const StaticFriction& kind
 struct OtherLaw {
   FrictionLaw law = FrictionLaw::Hyperbolic;
   double difference = 0.0;  ///< F_s - F_k(0+) under it / Units::force
-  /// Says how far this law moves F_k(0+) and F_s - F_k(0+).
+  /// Says how far this law moves F_k(0+) and F_s - F_k(0+); beside Coulomb friction zeta, too.
   Coordinates move = Coordinates::Zero();
 };
 
@@ -67,7 +67,7 @@ struct SweepOutcome {
   Spread spread;
   SpeedReach reach;
   std::vector<std::optional<LeftOut>> left_out;  ///< one for each of the solution's recordings
-  std::optional<OtherLaw> other_law{};           ///< where kinetic friction depends on the speed
+  std::optional<OtherLaw> other_law{};           ///< that the recordings do not exclude
   bool disagree = false;  ///< the covariance is widened by what leaving out each recording changes
 };
 
