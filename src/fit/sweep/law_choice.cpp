@@ -114,12 +114,12 @@ ChosenLaw choose_law(const SweepData& data, const SweepFits& fits, std::optional
     choice = {false, "residuals exceed the noise, and damping would be negative with F_k(v)"};
     velocity.reset();
   }
-  SweepOutcome outcome = velocity ? *std::move(velocity) : *std::move(coulomb);
   // Where residuals exceed the noise, neither chance nor recordings left out show that friction does not depend on the
   // speed.
-  if (!velocity && !tier && is_misfit(outcome.solution)) {
-    outcome.other_law = law_of(data, fits.velocity, outcome);
+  if (!velocity && !tier && is_misfit(coulomb->solution)) {
+    coulomb->other_law = law_of(data, fits.velocity, *coulomb);
   }
+  SweepOutcome outcome = velocity ? *std::move(velocity) : *std::move(coulomb);
   std::vector<Candidate> candidates = candidates_of(fits, choice);
   return {std::move(outcome), std::move(choice), std::move(candidates)};
 }
