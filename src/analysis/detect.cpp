@@ -177,9 +177,7 @@ std::vector<Rise> rises_of(const Recording& recording, const Segmentation& segme
     const DetectedSlip& after = segmentation.slips[i];
     const std::size_t fifth = (after.peak - before.trough) / 5;
     const double duration_s = recording.time_s()[after.peak] - recording.time_s()[before.trough];
-    const auto steps = static_cast<double>(after.peak - before.trough);
-    const bool has_gap = duration_s > (steps + thresholds::kGapSteps) * recording.sample_interval_s();
-    if (3 * fifth < kFewestSamples || has_gap) continue;
+    if (3 * fifth < kFewestSamples || signal::has_gap(recording, before.trough, after.peak)) continue;
     const auto middle = [&](std::span<const double> values) {
       return values.subspan(before.trough + fifth, 3 * fifth);
     };
@@ -297,18 +295,12 @@ bool is_broken(const std::vector<double>& deviations, std::size_t i, double usua
 }  // namespace
 
 Intervals intervals_of(const Recording& recording, const Segmentation& segmentation) {
-  const auto time_s = recording.time_s();
-  const double gap_s = thresholds::kGapSteps * recording.sample_interval_s();
-  const bool may_have_gaps = !recording.clock_is_even();
   Intervals intervals;
   for (std::size_t i = 2; i < segmentation.slips.size(); ++i) {
     const DetectedSlip& first = segmentation.slips[i - 1];
     const DetectedSlip& second = segmentation.slips[i];
-    bool whole = true;
-    for (std::size_t j = first.peak + 1; may_have_gaps && j <= second.trough; ++j) {
-      whole = whole && time_s[j] - time_s[j - 1] <= gap_s;
-    }
-    if (whole) intervals.seconds.push_back(second.middle_s - first.middle_s);
+    if (signal::has_gap(recording, first.peak, second.trough)) continue;
+    intervals.seconds.push_back(second.middle_s - first.middle_s);
   }
   const double usual = signal::median(intervals.seconds);
   std::vector<double> deviations;

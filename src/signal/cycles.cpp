@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 
 #include "core/thresholds.hpp"
+#include "signal/defects.hpp"
 #include "signal/events.hpp"
 #include "signal/mains.hpp"
 #include "signal/smoothing.hpp"
@@ -91,14 +92,7 @@ double rise_time_s(std::span<const double> time_s, const std::vector<double>& fo
 /// Leaves out falls from the end of one stroke to the start of the next.
 void remove_falls_between_strokes(std::vector<Fall>& falls, const Recording& recording) {
   if (recording.provenance().strokes == 0) return;
-  const std::span<const double> time_s = recording.time_s();
-  const double gap_s = thresholds::kGapSteps * recording.sample_interval_s();
-  std::erase_if(falls, [&](const Fall& fall) {
-    for (std::size_t i = fall.peak + 1; i <= fall.trough; ++i) {
-      if (time_s[i] - time_s[i - 1] > gap_s) return true;
-    }
-    return false;
-  });
+  std::erase_if(falls, [&](const Fall& fall) { return signal::has_gap(recording, fall.peak, fall.trough); });
 }
 
 Segmentation find_slips_in(std::span<const double> raw, const Recording& recording, const Quality& quality,

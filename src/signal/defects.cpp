@@ -296,4 +296,14 @@ std::vector<std::size_t> first_of_repeats(std::span<const double> force) {
   return changes.usual < thresholds::kRoundingSteps * changes.smallest ? std::vector<std::size_t>{} : first;
 }
 
+bool has_gap(const Recording& recording, std::size_t first, std::size_t last) {
+  if (recording.clock_is_even()) return false;
+  const double gap_s = thresholds::kGapSteps * recording.sample_interval_s();
+  const std::span<const double> time_s = recording.time_s();
+  for (std::size_t i = first + 1; i <= last; ++i) {
+    if (time_s[i] - time_s[i - 1] > gap_s) return true;
+  }
+  return false;
+}
+
 }  // namespace slipfit::signal

@@ -5,6 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "slipfit/core/recording.hpp"
+
 namespace slipfit::signal {
 
 /// Flags samples, alone or in pairs, that differ from both sides while the sides agree with each other (so that no
@@ -26,5 +28,8 @@ Clipping find_clipping(std::span<const double> values, std::optional<double> ste
 /// Returns the first sample of each run of equal values if a logger reads its converter more often than that has a new
 /// value: from run to run the value changes by several steps. Empty if values repeat by rounding, or hardly at all.
 std::vector<std::size_t> first_of_repeats(std::span<const double> force);
+
+/// Returns true if the clock has a gap between these two samples: samples are missing, or a stroke ends.
+bool has_gap(const Recording& recording, std::size_t first, std::size_t last);
 
 }  // namespace slipfit::signal

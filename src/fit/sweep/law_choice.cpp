@@ -80,8 +80,8 @@ SweepOutcome coulomb_outcome(const SweepData& data, const SweepFits& fits) {
   return is_better ? std::move(growing) : std::move(same);
 }
 
-/// How far friction that depends on the speed moves zeta, F_k and F_s - F_k, to the far ends of their intervals there.
-/// Under any law F_s - F_k lies between half of the drop and the drop.
+/// Returns how far friction that depends on the speed moves zeta, F_k and F_s - F_k, to the far ends of their intervals
+/// there. Under any law F_s - F_k lies between half of the drop and the drop.
 OtherLaw law_of(const SweepData& data, const SweepSolution& velocity, const SweepOutcome& coulomb) {
   const StaticFriction& kind = coulomb.static_friction;
   const Coordinates values = coordinates_of(velocity, kind);

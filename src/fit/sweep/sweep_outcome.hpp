@@ -44,7 +44,7 @@ AlongRate profile_rate(const SweepSolution& solution, const StaticFriction& kind
 struct OtherLaw {
   FrictionLaw law = FrictionLaw::Hyperbolic;
   double difference = 0.0;  ///< F_s - F_k(0+) under it / Units::force
-  /// Says how far this law moves F_k(0+) and F_s - F_k(0+); beside Coulomb friction zeta, too.
+  /// Says how far this law moves F_k(0+), F_s - F_k(0+) and, where Coulomb friction was chosen, zeta.
   Coordinates move = Coordinates::Zero();
 };
 

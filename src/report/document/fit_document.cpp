@@ -30,7 +30,8 @@ std::string key_of(ParameterId id) {
   return std::string(info(id).key);
 }
 
-/// Of a sweep whose damping ratio may be anything, the correlation has the one with which the others were fitted.
+/// Returns whether a prediction has a value of the parameter. Where the recordings leave the damping ratio open, the
+/// correlation has the one with which the others were fitted.
 bool predicts(ParameterId id, ParameterStatus status) {
   if (status == ParameterStatus::Bounded) return id == ParameterId::DampingRatio;
   return status != ParameterStatus::Unidentified;
