@@ -272,6 +272,28 @@ TEST_CASE("large irregular swings that ring are not steady sliding, those of noi
   CHECK(classify(recording, estimates).motion == MotionClass::SteadySliding);
 }
 
+TEST_CASE("rises have no gap, whatever the clock scatters by") {
+  const auto rises = [](double gap_s) {
+    std::vector<double> time_s, force;
+    Segmentation segmentation;
+    for (std::size_t i = 0; i < 6; ++i) {
+      for (std::size_t j = 0; j < 200; ++j) {
+        const double step_s = j % 10 == 0 ? 0.03 : 0.01;  // one in ten steps is three times as long
+        const double before_s = time_s.empty() ? 0.0 : time_s.back();
+        time_s.push_back(before_s + (i == 3 && j == 100 ? gap_s : step_s));
+        force.push_back(static_cast<double>(j) / 200.0);
+      }
+      const std::size_t peak = force.size() - 1;
+      if (i > 0) segmentation.slips.back().trough = peak - 199;
+      segmentation.slips.push_back({peak, peak, 1.0, 0.0, time_s.back(), 0.01, 2.0});
+    }
+    const auto recording = Recording::create(std::move(time_s), std::move(force), {.speed_m_per_s = 0.001});
+    return rises_of(recording.value(), segmentation).size();
+  };
+  CHECK(rises(0.03) == 5);
+  CHECK(rises(0.5) == 4);
+}
+
 TEST_CASE("sudden falls at random are slips where the force rises between them, and irregular where it wanders") {
   const auto classified = [](const auto& rise) {
     std::vector<double> force;
