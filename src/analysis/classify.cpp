@@ -237,7 +237,7 @@ std::optional<double> evidence_of_sticks(const Recording& recording, const Signa
 
 /// Three sines follow the swings as well as sticks and slips do: no sticks have to be there.
 Classification as_wave(double evidence) {
-  if (evidence < -thresholds::kClearSigmas) {
+  if (evidence < -kNormalQuantile) {
     return {MotionClass::OscillatorySlip, "three sines fit better than sticks and slips: an oscillation"};
   }
   return {MotionClass::Undetermined, "three sines fit as well as sticks and slips: the motion may be an oscillation"};
@@ -289,7 +289,7 @@ Classification classify_by_fit(const Recording& recording, const Estimates& esti
   if (auto round = as_round_swings(segmentation, e)) return *round;
   const std::optional<double> evidence =
       sudden ? std::nullopt : evidence_of_sticks(recording, estimates.signals, *estimates.fit, used);
-  if (evidence && *evidence < thresholds::kClearSigmas) return as_wave(*evidence);
+  if (evidence && *evidence < kNormalQuantile) return as_wave(*evidence);
   if (!close && !sudden) return without_model(recording, estimates.signals);
   return {MotionClass::StickSlip,
           fmt::format("{} cycles of straight sticks and quick slips, residual {:.1f} % of the friction drop", used,
