@@ -291,10 +291,11 @@ Classification classify_by_fit(const Recording& recording, const Estimates& esti
       sudden ? std::nullopt : evidence_of_sticks(recording, estimates.signals, *estimates.fit, used);
   if (evidence && *evidence < kNormalQuantile) return as_wave(*evidence);
   if (!close && !sudden) return without_model(recording, estimates.signals);
+  const bool is_proven = !evidence || *evidence > thresholds::kClearSigmas;
   return {MotionClass::StickSlip,
           fmt::format("{} cycles of straight sticks and quick slips, residual {:.1f} % of the friction drop", used,
                       100.0 * e.relative_residual),
-          false, true};
+          false, true, is_proven ? "" : "three sines fit nearly as well: the motion may be an oscillation"};
 }
 
 /// Returns true if the fit has the body stick for more than half of the time.

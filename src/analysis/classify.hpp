@@ -14,6 +14,7 @@ struct Classification {
   std::string reason;
   bool dies_out = false;    ///< an oscillation that shrinks to steady sliding
   bool model_fits = false;  ///< the fitted cycles are the model's: its parameters mean something
+  std::string caveat{};     ///< why no parameter is identified all the same; empty: no reason
 };
 
 /// Classifies the motion from slips, spectrum and fitted cycles. There is no fit if too few cycles could be fitted.

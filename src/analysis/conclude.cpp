@@ -21,7 +21,7 @@ namespace {
 
 /// Returns the fit without the results that the rest of the analysis rules out: it has no parameters where the motion
 /// is not that of the model and no natural frequency where inertia does not determine the slips, and it identifies
-/// nothing where the cycles are synchronous with the mains.
+/// nothing where the cycles are synchronous with the mains or sticks are not proven.
 std::optional<FitResult> qualify(std::optional<FitResult> fit, const Classification& classification,
                                  const Analysis& analysis, double duration_s) {
   if (!fit) return fit;
@@ -31,6 +31,11 @@ std::optional<FitResult> qualify(std::optional<FitResult> fit, const Classificat
   const std::optional<double>& drop = analysis.cycles.force_drop;
   if (ring_Hz && drop) fit = fit::qualified_by_ring_down(*std::move(fit), *ring_Hz, *drop);
   if (slips_Hz) fit = fit::qualified_by_mains(*std::move(fit), *slips_Hz, duration_s);
+  for (Parameter& parameter : fit->parameters) {
+    if (classification.caveat.empty() || parameter.status != ParameterStatus::Identified) continue;
+    parameter.status = ParameterStatus::Weak;
+    parameter.estimate.note = classification.caveat;
+  }
   return fit;
 }
 

@@ -287,7 +287,9 @@ TEST_CASE("rises have no gap, whatever the clock scatters by") {
       if (i > 0) segmentation.slips.back().trough = peak - 199;
       segmentation.slips.push_back({peak, peak, 1.0, 0.0, time_s.back(), 0.01, 2.0});
     }
-    const auto recording = Recording::create(std::move(time_s), std::move(force), {.speed_m_per_s = 0.001});
+    Conditions conditions;
+    conditions.speed_m_per_s = 0.001;
+    const auto recording = Recording::create(std::move(time_s), std::move(force), conditions);
     return rises_of(recording.value(), segmentation).size();
   };
   CHECK(rises(0.03) == 5);
