@@ -50,7 +50,7 @@ using ComparedCondition = std::optional<double> ComparedFit::*;
 std::optional<Interval> range_of(const ComparisonSide& side, ComparedCondition condition);
 /// Returns "50 mm/min" or "10 to 50 mm/min", the speed in the unit that it was given in; empty if no fit states the
 /// condition.
-std::string condition_text(const ComparisonSide& side, ComparedCondition condition, const std::string& SI_unit);
+std::string condition_text(const ComparisonSide& side, ComparedCondition condition);
 
 /// The origin of the interval of a difference (docs/validation.md gives the coverage of each).
 enum class ComparisonMethod {

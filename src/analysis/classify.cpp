@@ -193,7 +193,7 @@ std::optional<Classification> as_round_swings(const Segmentation& segmentation, 
 
 /// Returns the recording from its first slip to the last with its time counted in cycles: a wave whose period changes
 /// has a period of 1.
-std::optional<Recording> over_cycles(const Recording& recording, const Segmentation& segmentation) {
+Result<Recording> over_cycles(const Recording& recording, const Segmentation& segmentation) {
   const std::vector<DetectedSlip>& slips = segmentation.slips;
   std::vector<double> cycles, force;
   std::size_t before = 0;
@@ -205,8 +205,7 @@ std::optional<Recording> over_cycles(const Recording& recording, const Segmentat
     cycles.push_back(static_cast<double>(before) + (time_s - slips[before].middle_s) / period_s);
     force.push_back(recording.force()[i]);
   }
-  const auto counted = Recording::create(std::move(cycles), std::move(force), recording.conditions());
-  return counted ? std::optional(counted.value()) : std::nullopt;
+  return Recording::create(std::move(cycles), std::move(force), recording.conditions());
 }
 
 /// Returns how much better sticks and slips fit the samples than three sines do: twice the difference of the
@@ -216,18 +215,17 @@ std::optional<Recording> over_cycles(const Recording& recording, const Segmentat
 std::optional<double> evidence_of_sticks(const Recording& recording, const Signals& signals, const FitResult& fit,
                                          std::size_t used) {
   const double counted_Hz = 1.0 / signal::median(slip_intervals_s(signals.segmentation));
-  std::optional<double> harmonic_rms = harmonic_residual_rms(recording, counted_Hz);
+  std::optional<double> harmonic_rms;
+  const auto allow = [&](const Recording& trace, double frequency_Hz) {
+    const std::optional<double> rms = harmonic_residual_rms(trace, frequency_Hz);
+    if (rms) harmonic_rms = std::min(*rms, harmonic_rms.value_or(*rms));
+  };
+  allow(recording, counted_Hz);
   // From frequencies as near as this the period settles at the same value.
   constexpr double kSameWave = 0.01;
   const std::optional<double>& spectral_Hz = signals.spectral.value_Hz;
-  if (spectral_Hz && !(std::abs(*spectral_Hz / counted_Hz - 1.0) < kSameWave)) {
-    const std::optional<double> other = harmonic_residual_rms(recording, *spectral_Hz);
-    if (other) harmonic_rms = std::min(*other, harmonic_rms.value_or(*other));
-  }
-  if (const std::optional<Recording> counted = over_cycles(recording, signals.segmentation)) {
-    const std::optional<double> other = harmonic_residual_rms(*counted, 1.0);
-    if (other) harmonic_rms = std::min(*other, harmonic_rms.value_or(*other));
-  }
+  if (spectral_Hz && !(std::abs(*spectral_Hz / counted_Hz - 1.0) < kSameWave)) allow(recording, *spectral_Hz);
+  if (const auto counted = over_cycles(recording, signals.segmentation)) allow(counted.value(), 1.0);
   if (!harmonic_rms || !(fit.residual.rms > 0.0)) return std::nullopt;
   const double share = static_cast<double>(used) / static_cast<double>(fit.cycles.size());
   const double evidence =
@@ -312,7 +310,7 @@ bool sticks_mostly(const FitResult& fit) {
 
 /// Stick-slip has straight sticks where it sticks for most of the time: round rises are none, and levels that wander.
 /// Hum that the fit takes off rounds the rises of the trace, not those of the sticks.
-Classification unless_round(Classification classification, const Recording& recording, const Estimates& estimates) {
+Classification unless_no_sticks(Classification classification, const Recording& recording, const Estimates& estimates) {
   const Segmentation& segmentation = estimates.signals.segmentation;
   const bool has_long_sticks = slips_are_sudden(segmentation) || (estimates.fit && sticks_mostly(*estimates.fit));
   const bool is_slipping = classification.motion == MotionClass::StickSlip;
@@ -356,7 +354,7 @@ Classification by_falls(const Recording& recording, const Signals& signals) {
 }  // namespace
 
 Classification classify(const Recording& recording, const Estimates& estimates) {
-  Classification classification = unless_round(classify_by_fit(recording, estimates), recording, estimates);
+  Classification classification = unless_no_sticks(classify_by_fit(recording, estimates), recording, estimates);
   if (!classification.model_fits && follows_drive_path(recording.conditions(), estimates.signals.segmentation)) {
     return {MotionClass::SteadySliding,
             fmt::format("the force repeats every {:.4g} mm, the stated drive path: ripple, not slips",
@@ -375,7 +373,7 @@ Classification classify(const Recording& recording, const Estimates& estimates) 
 }
 
 Classification classify_by_shape(const Recording& recording, const Signals& signals) {
-  return unless_unresolved(unless_round(by_falls(recording, signals), recording, {signals, {}}), recording,
+  return unless_unresolved(unless_no_sticks(by_falls(recording, signals), recording, {signals, {}}), recording,
                            signals.spectral);
 }
 

@@ -31,11 +31,7 @@ std::optional<FitResult> qualify(std::optional<FitResult> fit, const Classificat
   const std::optional<double>& drop = analysis.cycles.force_drop;
   if (ring_Hz && drop) fit = fit::qualified_by_ring_down(*std::move(fit), *ring_Hz, *drop);
   if (slips_Hz) fit = fit::qualified_by_mains(*std::move(fit), *slips_Hz, duration_s);
-  for (Parameter& parameter : fit->parameters) {
-    if (classification.caveat.empty() || parameter.status != ParameterStatus::Identified) continue;
-    parameter.status = ParameterStatus::Weak;
-    parameter.estimate.note = classification.caveat;
-  }
+  if (!classification.caveat.empty()) fit = fit::without_identified(*std::move(fit), classification.caveat);
   return fit;
 }
 

@@ -111,15 +111,15 @@ void warn_of_conditions(Comparison& comparison) {
     comparison.warnings.push_back(
         {"speeds_differ", fmt::format("driving speed of A: {}, of B: {}: quantities that depend on speed (frequency, "
                                       "spacing, friction) may differ for this reason alone",
-                                      condition_text(comparison.a, &ComparedFit::speed_m_per_s, "m/s"),
-                                      condition_text(comparison.b, &ComparedFit::speed_m_per_s, "m/s"))});
+                                      condition_text(comparison.a, &ComparedFit::speed_m_per_s),
+                                      condition_text(comparison.b, &ComparedFit::speed_m_per_s))});
   }
   if (differ(comparison, &ComparedFit::normal_force_N)) {
     comparison.warnings.push_back(
         {"loads_differ", fmt::format("normal force of A: {}, of B: {}: friction forces, frequency and spacing differ "
                                      "for this reason; coefficients of friction account for it",
-                                     condition_text(comparison.a, &ComparedFit::normal_force_N, "N"),
-                                     condition_text(comparison.b, &ComparedFit::normal_force_N, "N"))});
+                                     condition_text(comparison.a, &ComparedFit::normal_force_N),
+                                     condition_text(comparison.b, &ComparedFit::normal_force_N))});
   }
   const auto any_differs = [&a, &b](auto property) {
     const auto differs = [&](const ComparedFit& fit) { return property(fit) != property(a.front()); };
@@ -170,12 +170,12 @@ void warn_of_repeats(Comparison& comparison) {
 
 }  // namespace
 
-std::string condition_text(const ComparisonSide& side, ComparedCondition condition, const std::string& SI_unit) {
+std::string condition_text(const ComparisonSide& side, ComparedCondition condition) {
   const std::optional<Interval> range = range_of(side, condition);
   if (!range) return {};
   const DisplayUnit unit = condition == &ComparedFit::speed_m_per_s
                                ? speed_unit(side.fits.front().speed_unit, range->high)
-                               : display_unit(SI_unit, range->high);
+                               : display_unit("N", range->high);
   const std::string from = range->low < range->high ? fmt::format("{:.4g} to ", range->low * unit.per_SI) : "";
   return fmt::format("{}{:.4g} {}", from, range->high * unit.per_SI, unit.unit);
 }

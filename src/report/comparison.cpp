@@ -74,8 +74,8 @@ std::string side_text(const ComparisonSide& side) {
   }
   std::string about = side.fits.size() == 1 ? "one recording" : fmt::format("{} recordings", side.fits.size());
   about += ", " + printable(fmt::format("{}", fmt::join(motions, ", ")));
-  for (const std::string& condition : {condition_text(side, &ComparedFit::speed_m_per_s, "m/s"),
-                                       condition_text(side, &ComparedFit::normal_force_N, "N")}) {
+  for (const std::string& condition :
+       {condition_text(side, &ComparedFit::speed_m_per_s), condition_text(side, &ComparedFit::normal_force_N)}) {
     if (!condition.empty()) about += ", " + condition;
   }
   return fmt::format("{} ({})", printable(side.name), about);

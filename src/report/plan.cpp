@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string_view>
@@ -42,12 +41,6 @@ std::string percent(double part, double whole) {
   return rounded(share, share) + " %";
 }
 
-/// Returns the words of the quantity with this key.
-std::string words_of(const std::string& key) {
-  const auto found = std::ranges::find(recording_quantities(), std::string_view(key), &Quantity::key);
-  return found == recording_quantities().end() ? key : std::string(found->words);
-}
-
 std::string options_text(const Plan& plan, const PredictionSource& source) {
   if (plan.options.empty()) return "\nNo speed near those measured gives enough cycles in the same time.\n";
   Table table({Align::Right, Align::Right, Align::Right, Align::Right, Align::Right, Align::Right});
@@ -70,8 +63,8 @@ std::string limits_text(const Plan& plan) {
   Table table({Align::Left, Align::Right, Align::Left});
   table.add({"parameter", "standard error", "limited by"});
   for (const ParameterLimit& limit : plan.limits) {
-    table.add(
-        {words_of(limit.name), percent(limit.standard_error, limit.value), std::string(words_of(limit.limit).words)});
+    table.add({std::string(quantity_with_key(limit.name).words), percent(limit.standard_error, limit.value),
+               std::string(words_of(limit.limit).words)});
   }
   return "\nLimits of each parameter\n" + table.text();
 }
@@ -109,7 +102,7 @@ std::string to_json(const Plan& plan, const PredictionSource& source) {
 }
 
 std::string to_text(const Plan& plan, const PredictionSource& source) {
-  std::string text = fmt::format("To improve the {}", words_of(plan.target.name));
+  std::string text = fmt::format("To improve the {}", quantity_with_key(plan.target.name).words);
   if (plan.target.speed_m_per_s)
     text +=
         " at " + quantity_text(*plan.target.speed_m_per_s, speed_unit(source.speed_unit, plan.target.speed_m_per_s));

@@ -109,13 +109,15 @@ std::vector<MainsLine> find_mains(std::span<const double> power, double bin_Hz, 
       if (target_Hz < 4.0 * resolution_Hz) continue;
       has_lower = has_lower ||
                   std::ranges::any_of(known_Hz, [&](double known) { return is_at(known, target_Hz, resolution_Hz); });
-      const auto line = line_at(power, bin_Hz, resolution_Hz, target_Hz);
+      std::optional<MainsLine> line = line_at(power, bin_Hz, resolution_Hz, target_Hz);
       if (!line) continue;
       // Above the third a harmonic of the mains counts only where a lower one was found: mains has those, and a single
       // line at such a place is of something else.
       if (order > 3 && !has_lower) continue;
       has_lower = true;
-      lines.push_back({line->frequency_Hz, mains_Hz, order, line->width_Hz, line->error_Hz});
+      line->mains_Hz = mains_Hz;
+      line->order = order;
+      lines.push_back(*line);
       total += power[static_cast<std::size_t>(std::lround(line->frequency_Hz / bin_Hz))];
     }
     if (total > best_power) {

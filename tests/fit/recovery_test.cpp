@@ -223,18 +223,8 @@ TEST_CASE("noise whose neighbours are correlated is no misfit of the slips") {
   for (const std::uint64_t seed : {1U, 2U, 3U}) {
     Scene s;
     s.seed = seed;
-    const Recording exact = record(s);
-    std::mt19937_64 random(seed);
-    std::normal_distribution<double> normal(0.0, 0.01 * (s.static_N - s.kinetic_N));
-    std::vector<double> force(exact.force().begin(), exact.force().end());
-    double noise_N = 0.0;
-    for (double& value : force) {
-      noise_N = 0.9 * noise_N + std::sqrt(1.0 - 0.81) * normal(random);
-      value += noise_N;
-    }
-    const Analysis analysis = analyze_and_fit(
-        Recording::create({exact.time_s().begin(), exact.time_s().end()}, std::move(force), exact.conditions())
-            .value());
+    const double noise_N = 0.01 * (s.static_N - s.kinetic_N);
+    const Analysis analysis = analyze_and_fit(test::with_correlated_noise(record(s), noise_N, seed));
     check_truth(analysis, s);
     CHECK(analysis.fit->residual.reduced_chi2 > 3.0);  // noise is measured by the differences of neighbours
     CHECK(std::ranges::none_of(analysis.warnings, [](const Warning& w) { return w.code == "model_misfit"; }));

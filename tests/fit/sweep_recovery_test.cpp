@@ -350,19 +350,9 @@ TEST_CASE("noise that is correlated may hide friction that depends on the speed:
     s.noise_N = 1e-4;
     s.scatter_N = 0.02;
     std::vector<SweepEntry> entries = record_sweep(s, kSpeeds);
-    std::mt19937_64 random(seed);
-    std::normal_distribution<double> normal(0.0, 0.01);
+    std::uint64_t of_noise = 10 * seed;
     for (SweepEntry& entry : entries) {
-      const Recording& exact = entry.recording;
-      std::vector<double> force(exact.force().begin(), exact.force().end());
-      double noise_N = 0.0;
-      for (double& value : force) {
-        noise_N = 0.9 * noise_N + std::sqrt(1.0 - 0.81) * normal(random);
-        value += noise_N;
-      }
-      entry.recording =
-          Recording::create({exact.time_s().begin(), exact.time_s().end()}, std::move(force), exact.conditions())
-              .value();
+      entry.recording = test::with_correlated_noise(entry.recording, 0.01, ++of_noise);
     }
     const SweepAnalysis sweep = analyze_sweep(entries);
     REQUIRE(sweep.fit);

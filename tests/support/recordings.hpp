@@ -1,6 +1,9 @@
 #pragma once
 
+#include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <random>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -28,6 +31,20 @@ inline slipfit::Recording with_force(const slipfit::Recording& recording, std::v
   return slipfit::Recording::create({recording.time_s().begin(), recording.time_s().end()}, std::move(force),
                                     recording.conditions())
       .value();
+}
+
+/// The same with noise of this rms, whose neighbours correlate by 0.9.
+inline slipfit::Recording with_correlated_noise(const slipfit::Recording& recording, double rms, std::uint64_t seed) {
+  constexpr double kCorrelation = 0.9;
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> normal(0.0, rms);
+  std::vector<double> force(recording.force().begin(), recording.force().end());
+  double noise = 0.0;
+  for (double& value : force) {
+    noise = kCorrelation * noise + std::sqrt(1.0 - kCorrelation * kCorrelation) * normal(random);
+    value += noise;
+  }
+  return with_force(recording, std::move(force));
 }
 
 /// The same samples under other conditions, with the normal force of each sample where it is given.

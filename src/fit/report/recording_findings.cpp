@@ -473,6 +473,15 @@ FitResult without_parameters(FitResult fit) {
   return fit;
 }
 
+FitResult without_identified(FitResult fit, const std::string& reason) {
+  for (Parameter& parameter : fit.parameters) {
+    if (parameter.status != ParameterStatus::Identified) continue;
+    parameter.status = ParameterStatus::Weak;
+    parameter.estimate.note = reason;
+  }
+  return fit;
+}
+
 FitResult qualified_by_mains(FitResult fit, double frequency_Hz, double duration_s) {
   const bool hum_found = fit.diagnostics.hum_share > 0.0;
   const std::optional<double> mains_Hz = signal::mains_in_step(frequency_Hz, hum_found ? 2 : 1, duration_s);
@@ -482,12 +491,7 @@ FitResult qualified_by_mains(FitResult fit, double frequency_Hz, double duration
       {"mains_in_step",
        fmt::format("the cycles ({:.4g} Hz) keep {}{}; another speed or a longer recording sets them apart",
                    frequency_Hz, reason, hum_found ? "" : ", and is taken to be absent")});
-  for (Parameter& parameter : fit.parameters) {
-    if (!hum_found || parameter.status != ParameterStatus::Identified) continue;
-    parameter.status = ParameterStatus::Weak;
-    parameter.estimate.note = reason;
-  }
-  return fit;
+  return hum_found ? without_identified(std::move(fit), reason) : fit;
 }
 
 namespace {

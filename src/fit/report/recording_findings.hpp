@@ -46,6 +46,9 @@ Findings findings_of(const Recording& recording, const TierFits& fits, const Res
 /// Returns the result without every number that is not fixed by the user: the motion is not the model's stick-slip.
 FitResult without_parameters(FitResult fit);
 
+/// Returns the fit with every identified parameter weak, for this reason.
+FitResult without_identified(FitResult fit, const std::string& reason);
+
 /// Qualifies the result of cycles that keep in step with the mains: hum is not visible in them and changes their
 /// estimates. Where hum was found next to them, or next to their second harmonic in step, nothing is identified; where
 /// none was found, it is assumed to be absent, with a warning. The third harmonic does no harm (docs/accuracy.md).
