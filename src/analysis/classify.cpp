@@ -138,12 +138,22 @@ Classification irregular(const Segmentation& segmentation) {
                       100.0 * interval.sd / interval.mean)};
 }
 
+bool are_few(const Segmentation& segmentation) {
+  return segmentation.slips.size() < thresholds::kFewFalls;
+}
+
+/// The falls are proven to be as sudden as those of slips; few of them, which ripple may make, twice as sudden.
+bool are_proven_sudden(const Segmentation& segmentation) {
+  const double least = are_few(segmentation) ? 2.0 * thresholds::kSudden : thresholds::kSudden;
+  return proven_rise_over_fall(segmentation) > least;
+}
+
 /// Classifies the trace without a model if the model fits no slip.
 Classification without_model(const Recording& recording, const Signals& signals) {
   const Segmentation& segmentation = signals.segmentation;
   const double ratio = rise_over_fall(segmentation);
   const bool sudden = slips_are_sudden(segmentation);
-  const bool is_proven = proven_rise_over_fall(segmentation) > thresholds::kSudden;
+  const bool is_proven = are_proven_sudden(segmentation);
   if (sudden && is_proven) {
     return {MotionClass::StickSlip, fmt::format("{} sudden force drops after rises that last {:.1f} times as long; the "
                                                 "model does not fit them, so its parameters are unknown",
@@ -334,18 +344,16 @@ Classification by_falls(const Recording& recording, const Signals& signals) {
   const SpectralFrequency& spectral = signals.spectral;
   if (auto early = by_counts(recording, segmentation, spectral)) return *early;
   const double ratio = rise_over_fall(segmentation);
-  const double proven = proven_rise_over_fall(segmentation);
-  if (slips_are_sudden(segmentation) && proven > thresholds::kSudden) {
+  if (slips_are_sudden(segmentation) && are_proven_sudden(segmentation)) {
     return {MotionClass::StickSlip, "the force falls much faster than it rises (no model fitted)"};
   }
   if (is_faint(segmentation)) {
     return {MotionClass::Undetermined, "the force drops are not much larger than the noise: only a fit can decide"};
   }
-  const bool are_few = segmentation.slips.size() < thresholds::kFewFalls;
-  if (!is_sine_like(segmentation) && ratio > thresholds::kSquare && !are_few) {
+  if (!is_sine_like(segmentation) && ratio > thresholds::kSquare && !are_few(segmentation)) {
     return {MotionClass::StickSlip, "the force falls much faster than it rises (no model fitted)"};
   }
-  if (ratio > thresholds::kSquare && are_few) {
+  if (ratio > thresholds::kSquare && are_few(segmentation)) {
     return {MotionClass::Undetermined, "too few force drops to distinguish slips from ripple without a fit"};
   }
   return {MotionClass::Undetermined, "the force falls about as slowly as it rises: only a fit can decide"};

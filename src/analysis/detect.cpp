@@ -190,7 +190,7 @@ std::vector<Rise> rises_of(const Recording& recording, const Segmentation& segme
 bool rises_wander(const Recording& recording, const Segmentation& segmentation) {
   std::vector<double> shares;
   for (const Rise& rise : rises_of(recording, segmentation)) shares.push_back(rise.middle_N_per_s / rise.whole_N_per_s);
-  return shares.size() >= thresholds::kFewestCycles && signal::median(std::move(shares)) < thresholds::kSteadyRise;
+  return shares.size() >= thresholds::kFewestSlips && signal::median(std::move(shares)) < thresholds::kSteadyRise;
 }
 
 bool rises_are_round(const Recording& recording, const Segmentation& segmentation) {

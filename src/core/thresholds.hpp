@@ -325,7 +325,8 @@ inline constexpr std::size_t kFewestPlateauBlocks = 20;
 
 // ## What the falls show without a model
 
-/// Falls below which their shape alone does not make stick-slip without a fit. [count; convention]
+/// Falls below which their shape alone makes stick-slip without a fit only where they are twice as sudden as kSudden.
+/// [count; convention]
 inline constexpr std::size_t kFewFalls = 10;
 
 /// Root mean square drop over the range of the force, above which irregular falls are not the wander of a steady level.
@@ -333,8 +334,9 @@ inline constexpr std::size_t kFewFalls = 10;
 inline constexpr double kLargeSwing = 0.2;
 
 /// Slope of the middle of a rise over that from its trough to its peak, below which the force wanders and the body does
-/// not stick. [1; derived: half of the 0.5 that bent sticks keep (clutch), sticks that are straight have 1]
-inline constexpr double kSteadyRise = 0.25;
+/// not stick. [1; calibrated: below 0.34 where the force of a friction damper wanders, above 0.52 for bent sticks, 1 for
+/// straight ones]
+inline constexpr double kSteadyRise = 0.4;
 
 /// Exponent of the second differences over their step, above which irregular swings are those of a body that moves.
 /// [1; derived: between 0.5 of a random walk and 1.5 of straight sticks]

@@ -318,6 +318,18 @@ TEST_CASE("sudden falls at random are slips where the force rises between them, 
   CHECK(wanders.reason.find("irregular") != std::string::npos);
 }
 
+TEST_CASE("nine falls that no model fits have to be twice as sudden as ten") {
+  const auto kind_of = [](std::size_t count, double ratio) {
+    Estimates estimates;
+    Segmentation& segmentation = estimates.signals.segmentation = falls(std::vector<double>(count, 1.0), 0.01);
+    for (DetectedSlip& slip : segmentation.slips) slip.rise_s = ratio * slip.fall_s;
+    return classify(recorded(std::vector<double>(2000, 1.0), 100.0, 0.001), estimates).motion;
+  };
+  CHECK(kind_of(10, 4.5) == MotionClass::StickSlip);
+  CHECK(kind_of(9, 4.5) == MotionClass::Undetermined);
+  CHECK(kind_of(9, 9.0) == MotionClass::StickSlip);
+}
+
 TEST_CASE("whether a fit that determines nothing is loose or worse does not change the answer") {
   const Recording recording = recorded(std::vector<double>(2000, 1.0), 100.0, 0.001);
   Estimates estimates;

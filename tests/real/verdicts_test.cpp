@@ -1,5 +1,6 @@
 // The kind of motion of measured recordings beside what their README says; skips, and says so, without the folder.
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <filesystem>
@@ -161,5 +162,22 @@ TEST_CASE("a few sudden slips are not called a force that wanders") {
   const std::size_t length = (recording->size() - first) / 8;
   for (const std::size_t piece : {std::size_t{4}, std::size_t{5}, std::size_t{7}}) {  // 3 or 4 slips each
     check(row, recording->part(first + piece * length, first + (piece + 1) * length));
+  }
+}
+
+TEST_CASE("a slope of the sensor or fewer samples make no stick-slip of cogging or of a wandering force") {
+  if (is_absent()) return;
+  const std::vector<Stated> rows{{"robot/robot_q1_5.txt", 5e-3, "CUO"}, {"damper/damper_p0_pull.csv", 0.01148, "OU"}};
+  for (const Stated& row : rows) {
+    const auto recording = read(row);
+    if (!recording) continue;
+    std::vector<double> sloping(recording->force().begin(), recording->force().end());
+    const auto [low, high] = std::ranges::minmax(sloping);
+    for (std::size_t i = 0; i < sloping.size(); ++i) {
+      sloping[i] += 0.3 * (high - low) * static_cast<double>(i) / static_cast<double>(sloping.size());
+    }
+    check(row, test::with_force(*recording, std::move(sloping)));
+    check(row, recording->part(0, 3 * recording->size() / 5));
+    for (const std::size_t every : {2, 3}) check(row, test::thinned(*recording, every));
   }
 }
