@@ -334,8 +334,8 @@ inline constexpr std::size_t kFewFalls = 10;
 inline constexpr double kLargeSwing = 0.2;
 
 /// Slope of the middle of a rise over that from its trough to its peak, below which the force wanders and the body does
-/// not stick. [1; calibrated: below 0.34 where the force of a friction damper wanders, above 0.52 for bent sticks, 1 for
-/// straight ones]
+/// not stick. [1; calibrated: below 0.34 where the force of a friction damper wanders, above 0.52 for bent sticks, 1
+/// for straight ones]
 inline constexpr double kSteadyRise = 0.4;
 
 /// Exponent of the second differences over their step, above which irregular swings are those of a body that moves.

@@ -250,7 +250,8 @@ std::optional<Minimum> TermFitter::near(const BlockFit& fit) const {
   return solved(enough_, fit);
 }
 
-std::optional<Minimum> TermFitter::behind_filter(const BlockFit& from, std::span<const FilterStart> starts) const {
+std::optional<Minimum> TermFitter::behind_filter(const BlockFit& from, std::span<const FilterStart> starts,
+                                                 const BlockFit& rival) const {
   Scales scales = scales_of({}, input_.recording.conditions().sensor_average_s.value_or(0.0));
   scales.free_time = FreeTime::Lag;
   std::optional<Minimum> best;
@@ -264,7 +265,9 @@ std::optional<Minimum> TermFitter::behind_filter(const BlockFit& from, std::span
     if (draft && (!best || explains_more(*draft, *best))) best = std::move(draft);
   }
   if (best) best = roughly_settled(std::move(best->blocks), held_, kDescentTolerance);
-  return best ? near(best->blocks) : std::nullopt;
+  if (!best) return std::nullopt;
+  const std::optional<Minimum> instead = solved(few_, rival);
+  return instead && gain_on(*few_, *instead, *best) > thresholds::kTierPrice ? std::nullopt : near(best->blocks);
 }
 
 double TermFitter::gain_on_some(const Minimum& better, const Minimum& other) const {
