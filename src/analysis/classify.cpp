@@ -153,13 +153,12 @@ Classification without_model(const Recording& recording, const Signals& signals)
   const Segmentation& segmentation = signals.segmentation;
   const double ratio = rise_over_fall(segmentation);
   const bool sudden = slips_are_sudden(segmentation);
-  const bool is_proven = are_proven_sudden(segmentation);
-  if (sudden && is_proven) {
+  if (sudden && are_proven_sudden(segmentation)) {
     return {MotionClass::StickSlip, fmt::format("{} sudden force drops after rises that last {:.1f} times as long; the "
                                                 "model does not fit them, so its parameters are unknown",
                                                 segmentation.slips.size(), ratio)};
   }
-  if (sudden || is_proven) {
+  if (sudden || proven_rise_over_fall(segmentation) > thresholds::kSudden) {
     return {MotionClass::Undetermined,
             fmt::format("{} force drops after rises that last {:.1f} times as long; the model does not fit them, and "
                         "they are too few or too different to distinguish slips from ripple; record longer",

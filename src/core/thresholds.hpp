@@ -436,9 +436,6 @@ inline constexpr double kLoadShare = 0.1;
 /// Relative standard error of a mass that is stated without one (Conditions::mass_standard_error_kg). [1; convention]
 inline constexpr double kUsualMassError = 0.02;
 
-/// Chance at which a line in the sticks is none. [1; convention]
-inline constexpr double kRippleChance = 1e-6;
-
 /// Factor either way, above which the band of a predicted spacing or of the end of stick-slip says nothing; its square
 /// for an end that goes as an exponential of what ages. [1; convention]
 inline constexpr double kWidestFactor = 2.0;

@@ -302,8 +302,7 @@ std::vector<double> without_repeats(const Recording& recording, const BlockFit& 
 /// New lines in what a fit leaves.
 class NewLines {
  public:
-  NewLines(const Recording& recording, const BlockFit& fit, const Rest& rest,
-           const std::optional<StickRipple>& in_sticks)
+  NewLines(const Recording& recording, const BlockFit& fit, const Rest& rest)
       : known_Hz_(fit.level().lines_Hz), resolution_Hz_(rest.resolution_Hz()), spectrum_(rest.on_even_clock()) {
     const Prominence prominence(rest.values());
     const auto is_new = [&](double f_Hz) { return !is_near_one_of(f_Hz, known_Hz_) && !is_in_step(fit, f_Hz); };
@@ -313,23 +312,13 @@ class NewLines {
       const double f_Hz = line.frequency_Hz;
       if (is_new(f_Hz) && prominence.of(rest.power_at(f_Hz)) > thresholds::kSureHum) seen_Hz_.push_back(f_Hz);
     }
-    std::optional<Rest> unlike_cycles;
-    // The mains is where it is; a line elsewhere may be what the model misses of the slips, which scatter.
-    const auto is_no_misfit = [&](double f_Hz) {
-      if (!unlike_cycles) unlike_cycles.emplace(recording, fit, without_repeats(recording, fit, rest.values()));
-      return unlike_cycles->power_at(f_Hz) > thresholds::kUnlikeCycles * rest.power_at(f_Hz);
-    };
     const std::optional<double> other_Hz = line_in_residuals(fit, rest);
     if (other_Hz && is_new(*other_Hz) && !is_near_one_of(*other_Hz, seen_Hz_)) {
       const double square = rest.power_at(*other_Hz);
       // Weaker ones may be of slips that a drive moves, or of rounding.
       const bool is_large = square > fit.scales().noise * fit.scales().noise;
       const bool is_line = is_large && prominence.of(square) > thresholds::kSureLine;
-      if (is_line && is_no_misfit(*other_Hz)) seen_Hz_.push_back(*other_Hz);
-    }
-    if (in_sticks && is_new(in_sticks->frequency_Hz) && !is_near_one_of(in_sticks->frequency_Hz, seen_Hz_) &&
-        is_no_misfit(in_sticks->frequency_Hz)) {
-      seen_Hz_.push_back(in_sticks->frequency_Hz);
+      if (is_line && is_unlike_cycles(recording, fit, rest, *other_Hz)) seen_Hz_.push_back(*other_Hz);
     }
   }
 
@@ -351,6 +340,11 @@ class NewLines {
   }
 
  private:
+  /// The mains is where it is; a line elsewhere may be what the model misses of the slips, which scatter.
+  static bool is_unlike_cycles(const Recording& recording, const BlockFit& fit, const Rest& rest, double line_Hz) {
+    const Rest unlike(recording, fit, without_repeats(recording, fit, rest.values()));
+    return unlike.power_at(line_Hz) > thresholds::kUnlikeCycles * rest.power_at(line_Hz);
+  }
   /// The strongest line of the rest where the slips have no line: with another phase at the onset of each. Among few
   /// slips this is chance, and between runs of cycles lines have images.
   [[nodiscard]] std::optional<double> line_in_residuals(const BlockFit& fit, const Rest& rest) const {
@@ -387,13 +381,13 @@ std::vector<double> refine_hum(const Recording& recording, const BlockFit& fit, 
 }
 
 HumSearch find_hum(const Recording& recording, const BlockFit& fit, std::vector<double> residuals,
-                   const std::vector<std::size_t>& outliers, const std::optional<StickRipple>& in_sticks) {
+                   const std::vector<std::size_t>& outliers) {
   for (const std::size_t sample : outliers) residuals[sample] = 0.0;  // they would smear over the spectrum
   Rest rest(recording, fit, std::move(residuals));
   std::vector<double> strong_Hz;
   HumSearch found;
   {
-    const NewLines lines(recording, fit, rest, in_sticks);
+    const NewLines lines(recording, fit, rest);
     strong_Hz = lines.strong();
     found.others_wait = !strong_Hz.empty() && strong_Hz.size() < lines.seen();
   }
@@ -479,232 +473,20 @@ bool is_same_hum(const BlockFit& fit, const std::vector<double>& frequencies_Hz)
   return difference < kNothing * fit.scales().noise;
 }
 
-std::optional<StickRipple> fitted_ripple(const BlockFit& fit) {
-  std::optional<StickRipple> largest;
+std::optional<DriveRipple> fitted_ripple(const BlockFit& fit) {
+  std::optional<DriveRipple> largest;
   for (const FittedLine& line : fitted_lines(fit)) {
     const double share = speed_share(fit, line.frequency_Hz, line.force);
     const bool may_be_of_drive = !line.is_of_mains && share > thresholds::kNegligible && share < 1.0;
     if (!may_be_of_drive || (largest && share < largest->speed_share)) continue;
-    largest = StickRipple{line.frequency_Hz, line.force, share, 0.0};
+    largest = DriveRipple{line.frequency_Hz, line.force, share};
   }
   return largest;
 }
 
-namespace {
-
-constexpr std::size_t kBlocksPerPeriod = 64;  // twice the fastest line that is looked for
-constexpr std::size_t kFewestBlocks = 8;      // of a stick
-constexpr double kSlowest = 2.5;              // a period: what is slower bends the whole stick
-constexpr double kFastest = 30.0;
-constexpr double kLeastShare = 1e-3;  // of the speed: changes k by no more than that
-
-/// Holds what the fit leaves of a stick, in means over blocks of samples.
-struct Stick {
-  std::size_t first = 0;  ///< block of the recording
-  Eigen::VectorXd time_s, force;
-  [[nodiscard]] std::size_t end() const { return first + static_cast<std::size_t>(force.size()); }
-};
-
-/// Returns the columns without the straight line that fits each best.
-template <class Columns>
-Columns without_line(const Eigen::VectorXd& time_s, Columns columns) {
-  const Eigen::VectorXd since_s = time_s.array() - time_s.mean();
-  const auto slope = (since_s.transpose() * columns / since_s.squaredNorm()).eval();
-  const auto mean = columns.colwise().mean().eval();
-  columns.noalias() -= since_s * slope;
-  columns.rowwise() -= mean;
-  return columns;
-}
-
-/// Cosine and sine.
-using Waves = Eigen::Matrix<double, Eigen::Dynamic, 2>;
-
-Waves waves_at(const Eigen::VectorXd& time_s, double frequency_Hz) {
-  const Eigen::ArrayXd angle = 2.0 * std::numbers::pi * frequency_Hz * time_s.array();
-  Waves waves(time_s.size(), 2);
-  waves << angle.cos(), angle.sin();
-  return waves;
-}
-
-/// k V.
-double stick_slope(const BlockFit& fit) {
-  return std::exp(fit.parameters.values(kLogStiffness)) * fit.scales().speed_m_per_s;
-}
-
-class Sticks {
- public:
-  Sticks(const Recording& recording, const BlockFit& fit, const Residuals& residuals)
-      : recording_(recording), fit_(fit), residuals_(residuals) {
-    std::vector<double> periods_s;
-    for (std::size_t i = 0; i + 1 < fit.size(); ++i) {
-      if (fit.data(i).continuous_with_next) periods_s.push_back(fit.reference_s(i + 1) - fit.reference_s(i));
-    }
-    period_s_ = signal::median(std::move(periods_s));
-    const double samples = period_s_ / recording.sample_interval_s();
-    block_ = std::max<std::size_t>(1, static_cast<std::size_t>(samples) / kBlocksPerPeriod);
-    step_s_ = static_cast<double>(block_) * recording.sample_interval_s();
-    if (period_s_ > 0.0) collect();
-    keep_longest_part();
-  }
-
-  [[nodiscard]] std::optional<StickRipple> largest_line() const {
-    if (sticks_.size() < 3) return std::nullopt;
-    const std::optional<double> near_Hz = peak();
-    if (!near_Hz) return std::nullopt;
-    const double reach_Hz = 0.5 / (sticks_.back().time_s(0) - sticks_.front().time_s(0));
-    const auto [frequency_Hz, cost] = boost::math::tools::brent_find_minima(
-        [&](double f) { return -gain(f); }, *near_Hz - reach_Hz, *near_Hz + reach_Hz, 20);
-    if (!lasts(frequency_Hz)) return std::nullopt;
-    return line_at(frequency_Hz);
-  }
-
- private:
-  void collect() {
-    const std::vector<CyclePart>& part = residuals_.part;
-    for (std::size_t begin = 0, end = 0; begin < part.size(); begin = std::max(end, begin + 1)) {
-      end = begin;
-      while (end < part.size() && part[end] == CyclePart::Stick) ++end;
-      add(begin, end);
-    }
-  }
-
-  /// Keeps the sticks on one side of a gap that is longer than all sticks together: a spectrum over the gap would cost
-  /// more than all the rest, and the sticks of one side show a line by themselves.
-  void keep_longest_part() {
-    const auto blocks_in = [](std::span<const Stick> sticks) {
-      std::size_t blocks = 0;
-      for (const Stick& stick : sticks) blocks += static_cast<std::size_t>(stick.force.size());
-      return blocks;
-    };
-    const std::span<const Stick> all(sticks_);
-    const std::size_t longest_gap = blocks_in(all);
-    std::span<const Stick> best;
-    for (std::size_t begin = 0, end = 0; begin < all.size(); begin = end) {
-      for (end = begin + 1; end < all.size() && all[end].first - all[end - 1].end() <= longest_gap;) ++end;
-      const std::span<const Stick> part = all.subspan(begin, end - begin);
-      if (blocks_in(part) > blocks_in(best)) best = part;
-    }
-    if (best.size() < all.size()) sticks_ = std::vector<Stick>(best.begin(), best.end());
-  }
-
-  /// Blocks begin at multiples of their length, so that all sticks lie on one grid.
-  void add(std::size_t begin, std::size_t end) {
-    // Next to a slip, onset and end are known to about a sample, and an average still shows the slip.
-    const auto margin = 2 + static_cast<std::size_t>(0.5 * fit_.sensor().average_s / recording_.sample_interval_s());
-    const std::size_t first = (begin + margin + block_ - 1) / block_;
-    const std::size_t last = end < margin ? 0 : (end - margin) / block_;
-    if (last < first + kFewestBlocks) return;
-    const auto count = static_cast<Eigen::Index>(last - first);
-    Stick stick{0, Eigen::VectorXd(count), Eigen::VectorXd(count)};
-    for (Eigen::Index i = 0; i < count; ++i) {
-      const std::size_t at = (first + static_cast<std::size_t>(i)) * block_;
-      double sum = 0.0;
-      for (std::size_t k = at; k < at + block_; ++k) sum += residuals_.value[k];
-      stick.time_s(i) = 0.5 * (recording_.time_s()[at] + recording_.time_s()[at + block_ - 1]);
-      stick.force(i) = sum / static_cast<double>(block_);
-    }
-    // By time, not by samples: where some are missing, later sticks keep their place.
-    const double place = (stick.time_s(0) - recording_.time_s().front()) / step_s_;
-    stick.first = static_cast<std::size_t>(place + 0.25);  // the middle of a block lies up to half a block behind
-    if (!sticks_.empty()) stick.first = std::max(stick.first, sticks_.back().end());
-    sticks_.push_back(std::move(stick));
-  }
-
-  /// Frequency of the largest value of the periodogram, unless that is chance: of exponential values about the local
-  /// level one exceeds r times it with exp(-r).
-  [[nodiscard]] std::optional<double> peak() const {
-    const std::size_t origin = sticks_.front().first;
-    std::vector<double> values(sticks_.back().end() - origin);
-    for (const Stick& stick : sticks_) {
-      const Eigen::VectorXd straight = without_line(stick.time_s, stick.force);
-      std::copy(straight.begin(), straight.end(), values.begin() + static_cast<std::ptrdiff_t>(stick.first - origin));
-    }
-    const std::size_t padded = signal::good_length(2 * values.size());
-    const std::vector<double> power = signal::hann_power(values, padded);
-    const double bin_Hz = 1.0 / (step_s_ * static_cast<double>(padded));
-    const auto bin_of = [&](double f) { return std::min(power.size(), static_cast<std::size_t>(f / bin_Hz)); };
-    const auto begin = power.begin() + static_cast<std::ptrdiff_t>(bin_of(kSlowest / period_s_));
-    const auto end = power.begin() + static_cast<std::ptrdiff_t>(bin_of(kFastest / period_s_));
-    if (begin >= end) return std::nullopt;
-    const auto top = std::max_element(begin, end);
-    const auto distance = top - power.begin();
-    const std::vector<double> around(std::max(begin, power.begin() + distance / 2),
-                                     std::min(end, power.begin() + std::min(2 * distance, end - power.begin())));
-    const double level = signal::median(around) / std::numbers::ln2;
-    const double chance = static_cast<double>(end - begin) * std::exp(-*top / level);
-    if (!(level > 0.0) || chance > thresholds::kRippleChance) return std::nullopt;
-    return static_cast<double>(distance) * bin_Hz;
-  }
-
-  struct Normal {
-    Eigen::Matrix2d square = Eigen::Matrix2d::Zero();
-    Eigen::Vector2d cross = Eigen::Vector2d::Zero();
-    [[nodiscard]] Eigen::Vector2d solution() const { return square.ldlt().solve(cross); }
-  };
-
-  /// Returns the normal equations of cosine and sine over blocks [from, to) of each stick, as shares of its length.
-  [[nodiscard]] Normal normal(double frequency_Hz, double from, double to) const {
-    Normal sum;
-    for (const Stick& stick : sticks_) {
-      const auto count = static_cast<double>(stick.force.size());
-      const auto first = static_cast<Eigen::Index>(from * count);
-      const Eigen::Index length = static_cast<Eigen::Index>(to * count) - first;
-      const Eigen::VectorXd time_s = stick.time_s.segment(first, length);
-      const Waves waves = without_line(time_s, waves_at(time_s, frequency_Hz));
-      sum.square += waves.transpose() * waves;
-      sum.cross += waves.transpose() * stick.force.segment(first, length);
-    }
-    return sum;
-  }
-
-  [[nodiscard]] double gain(double frequency_Hz) const {
-    const Normal all = normal(frequency_Hz, 0.0, 1.0);
-    return all.cross.dot(all.solution());
-  }
-
-  /// Ringing after a slip dies out: a drive swings as much in the second half of the sticks as in the first, in step.
-  [[nodiscard]] bool lasts(double frequency_Hz) const {
-    const Eigen::Vector2d early = normal(frequency_Hz, 0.0, 0.5).solution();
-    const Eigen::Vector2d late = normal(frequency_Hz, 0.5, 1.0).solution();
-    return (early - late).norm() < 0.5 * (early + late).norm();
-  }
-
-  /// Fits a line at this frequency: each stick has a mean of its own and all have one slope, without and with the line.
-  [[nodiscard]] StickRipple line_at(double frequency_Hz) const {
-    Eigen::Matrix3d square = Eigen::Matrix3d::Zero();
-    Eigen::Vector3d cross = Eigen::Vector3d::Zero();
-    for (const Stick& stick : sticks_) {
-      Eigen::MatrixXd columns(stick.force.size(), 3);
-      columns << stick.time_s, waves_at(stick.time_s, frequency_Hz);
-      columns.rowwise() -= columns.colwise().mean().eval();
-      square += columns.transpose() * columns;
-      cross += columns.transpose() * stick.force;
-    }
-    const Eigen::Vector3d with = square.ldlt().solve(cross);
-    const double slope = stick_slope(fit_);
-    const double force = with.tail<2>().norm();
-    return {frequency_Hz, force, speed_share(fit_, frequency_Hz, force), (with(0) - cross(0) / square(0, 0)) / slope};
-  }
-
-  const Recording& recording_;
-  const BlockFit& fit_;
-  const Residuals& residuals_;
-  double period_s_ = 0.0;
-  double step_s_ = 0.0;
-  std::size_t block_ = 1;
-  std::vector<Stick> sticks_;
-};
-
-}  // namespace
-
 double speed_share(const BlockFit& fit, double frequency_Hz, double force) {
-  return 2.0 * std::numbers::pi * frequency_Hz * force / stick_slope(fit);
-}
-
-std::optional<StickRipple> find_stick_ripple(const Recording& recording, const BlockFit& fit,
-                                             const Residuals& residuals, double least_force) {
-  const std::optional<StickRipple> line = Sticks(recording, fit, residuals).largest_line();
-  return line && line->force > least_force && line->speed_share > kLeastShare ? line : std::nullopt;
+  const double stick_slope = std::exp(fit.parameters.values(kLogStiffness)) * fit.scales().speed_m_per_s;
+  return 2.0 * std::numbers::pi * frequency_Hz * force / stick_slope;
 }
 
 }  // namespace slipfit::fit

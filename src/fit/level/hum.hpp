@@ -56,20 +56,12 @@ class Rest {
   std::vector<CycleRun> runs_;
 };
 
-/// One line in the sticks: a drive that runs unevenly (V (1 + r cos w t) gives a force k V r / w in stick), or pick-up.
-struct StickRipple {
+/// A line that a drive may make which runs unevenly: V (1 + r cos w t) gives a force k V r / w in stick.
+struct DriveRipple {
   double frequency_Hz = 0.0;
-  double force = 0.0;          ///< amplitude, in the column's unit
-  double speed_share = 0.0;    ///< amplitude of the speed that makes it, over the driving speed
-  double log_stiffness = 0.0;  ///< by how much ln k changes where the sticks are fitted with the line
+  double force = 0.0;        ///< amplitude, in the column's unit
+  double speed_share = 0.0;  ///< amplitude of the speed that makes it, over the driving speed
 };
-
-/// The largest line in what a fit leaves of the sticks, between 2.5 and 30 times the slips' frequency. Empty where the
-/// periodogram's largest value is chance (thresholds::kRippleChance), where the line does not last all the stick, or
-/// below `least_force`: steps of the converter make lines of half their height in straight ramps.
-/// `residuals`: of all samples of the recording.
-std::optional<StickRipple> find_stick_ripple(const Recording& recording, const BlockFit& fit,
-                                             const Residuals& residuals, double least_force);
 
 /// Amplitude of the drive's speed that makes a line of this amplitude in stick, over the driving speed.
 double speed_share(const BlockFit& fit, double frequency_Hz, double force);
@@ -81,7 +73,7 @@ struct HumSearch {
 };
 
 /// Returns the frequencies of the mains lines that are prominent in the residuals, of the strongest line at another
-/// frequency where it is larger than the noise, and of the line in the sticks, unless they are in step with the slips.
+/// frequency where it is larger than the noise, unless they are in step with the slips.
 /// Small hum is masked by the cycles' own spectrum, but not in the residuals. Lines that the fit has already are looked
 /// at again, so that their frequency follows the better fit.
 ///
@@ -92,7 +84,7 @@ struct HumSearch {
 ///
 /// `residuals`: one a sample (Residuals::value), handed over because a long recording has no room for a copy.
 HumSearch find_hum(const Recording& recording, const BlockFit& fit, std::vector<double> residuals,
-                   const std::vector<std::size_t>& outliers, const std::optional<StickRipple>& in_sticks);
+                   const std::vector<std::size_t>& outliers);
 
 /// Returns the frequencies at which the residuals of the fit, as for find_hum, have the lines that it has already.
 std::vector<double> refine_hum(const Recording& recording, const BlockFit& fit, std::vector<double> residuals);
@@ -113,6 +105,6 @@ bool is_same_hum(const BlockFit& fit, const std::vector<double>& frequencies_Hz)
 
 /// The largest fitted line that a drive may make: its speed changes by more than thresholds::kNegligible and never
 /// turns back; not of the mains.
-std::optional<StickRipple> fitted_ripple(const BlockFit& fit);
+std::optional<DriveRipple> fitted_ripple(const BlockFit& fit);
 
 }  // namespace slipfit::fit

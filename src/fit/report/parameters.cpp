@@ -26,12 +26,7 @@ Warning averaged_warning(double average_s) {
                       1e3 * average_s)};
 }
 
-Warning ripple_warning(const StickRipple& ripple) {
-  if (ripple.speed_share > 1.0) {
-    return {"suspicious_line",
-            fmt::format("oscillation at {:.4g} Hz during stick: pick-up, or an oscillation synchronous with the slips",
-                        ripple.frequency_Hz)};
-  }
+Warning ripple_warning(const DriveRipple& ripple) {
   return {
       "drive_ripple",
       fmt::format(

@@ -61,7 +61,7 @@ inline constexpr const char* kRiseOfDistance =
 Warning averaged_warning(double average_s);
 
 /// Warns that a line swings in the sticks. It is of the drive, unless that would have to turn back.
-Warning ripple_warning(const StickRipple& ripple);
+Warning ripple_warning(const DriveRipple& ripple);
 
 /// What it would take to know zeta well enough. Its errors fall with the root of the cycles; identified from a quarter
 /// on.

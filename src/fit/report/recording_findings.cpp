@@ -167,11 +167,6 @@ struct StiffnessFindings {
   Warnings warnings;
 };
 
-/// Returns a line next to the cycles: left in the sticks because it is in step with the slips, or in the fit.
-std::optional<StickRipple> ripple_of(const DampedFit& fit) {
-  return fit.ripple && fit.ripple->speed_share > thresholds::kNegligible ? fit.ripple : fitted_ripple(fit.blocks);
-}
-
 StiffnessFindings stiffness_findings(const Recording& recording, const TierFits& fits) {
   StiffnessFindings result;
   if (fits.damped.held[kLogStiffness]) return result;
@@ -186,8 +181,7 @@ StiffnessFindings stiffness_findings(const Recording& recording, const TierFits&
     result.warnings.push_back({"model_misfit", result.note});
     if (std::abs(bend->log_ratio) > thresholds::kNegligible) result.caveat = result.note;
   }
-  if (const std::optional<StickRipple> ripple = ripple_of(fits.damped)) {
-    result.variance += std::pow(ripple->log_stiffness, 2);
+  if (const std::optional<DriveRipple> ripple = fitted_ripple(fits.damped.blocks)) {
     result.warnings.push_back(ripple_warning(*ripple));
     result.note = result.warnings.back().message;
   }

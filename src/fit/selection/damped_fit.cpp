@@ -252,16 +252,12 @@ class Fitter {
   std::optional<BlockFit> with_clean_data(BlockFit fit) {
     for (int pass = 0; pass < kCleanPasses; ++pass) {
       Residuals residuals = residuals_of(recording_, fit);
-      std::vector<CyclePart> parts = residuals.part;
       residuals = without(std::move(residuals), excluded_);
       const std::vector<std::size_t> outliers = find_outliers(residuals, scales_.noise);
       const std::vector<std::size_t> censored = beyond_clip(recording_, quality_, residuals, scales_.noise);
       const std::vector<std::size_t> bad = unexplained_slips(fit);
       residuals = zeroed_at(std::move(residuals), outliers);
-      residuals.part.swap(parts);  // a stick continues around what is left out of it
-      const std::optional<StickRipple> ripple =
-          find_stick_ripple(recording_, fit, residuals, tolerated_misfit(quality_));
-      const HumSearch hum = find_hum(recording_, fit, std::move(residuals.value), outliers, ripple);
+      const HumSearch hum = find_hum(recording_, fit, std::move(residuals.value), outliers);
       const bool is_clean = outliers.empty() && censored.empty() && bad.empty() && hum.lines_Hz.empty();
       if (is_clean) {
         if (pass == 0) solve(fit, {held_, false, true, kMaxIterations, kFinal});  // it was only rough so far

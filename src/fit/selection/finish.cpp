@@ -123,8 +123,6 @@ std::optional<DampedFit> finish_fit(const FitInput& input, DampedFit fit) {
     if (!moves.allFinite()) return std::nullopt;
     fit.uncertainty = with_rounding(fit.uncertainty, moves);
   }
-  const Residuals residuals = zeroed_at(residuals_of(input.recording, fit.blocks), fit.excluded);
-  fit.ripple = find_stick_ripple(input.recording, fit.blocks, residuals, tolerated_misfit(quality));
   if (fit.misfit) fit.uncertainty = with_misfit(fit.uncertainty, influence_of_segments(fit.blocks, fit.held));
   return fit;
 }

@@ -47,7 +47,6 @@ struct DampedFit {
   Uncertainty uncertainty{};
   std::optional<SegmentMisfit> misfit{};   ///< slips are not shaped like the model's; the covariances allow for it
   std::optional<Smoothing> rounding{};     ///< of the slips, more than the sensor's stated one; empty: not determined
-  std::optional<StickRipple> ripple{};     ///< left in the sticks
   std::optional<FittedAverage> average{};  ///< in the model and its covariance; empty: stated, or none
   /// Holds the values of fits with more terms that the data do not rule out. Intervals include them, too.
   std::vector<Coordinates> rivals{};

@@ -38,10 +38,10 @@ TEST_CASE("a drive that runs unevenly is said, and its line is fitted with the c
   const Analysis plain = analyze_and_fit(even);
   CHECK_FALSE(has_warning(plain, "drive_ripple"));
   const double slips_Hz = *plain.frequency.quoted.value;
-  const double ratio = GENERATE(4.37, 5.0);  // the second is in step: no line of its own
+  const double ratio = GENERATE(4.37, 5.0);  // the second is in step: part of the shape of the cycles
   const Analysis analysis = analyze_and_fit(on_uneven_drive(even, ratio * slips_Hz));
   INFO(ratio);
-  CHECK(has_warning(analysis, "drive_ripple"));
+  CHECK(has_warning(analysis, "drive_ripple") == (ratio != 5.0));
   CHECK(has_warning(analysis, "hum_fitted") == (ratio != 5.0));
   const Parameter& stiffness = parameter(analysis, "stiffness_N_per_m");
   REQUIRE(stiffness.estimate.ci95);
