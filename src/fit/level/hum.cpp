@@ -322,21 +322,13 @@ class NewLines {
     }
   }
 
-  [[nodiscard]] std::size_t seen() const { return seen_Hz_.size(); }
-
-  /// Returns the new lines that are no images of others or of what is left of the known ones.
-  [[nodiscard]] std::vector<double> strong() const {
-    double strongest = 0.0;
-    for (const auto* lines_Hz : {&known_Hz_, &seen_Hz_}) {
-      for (const double f_Hz : *lines_Hz) strongest = std::max(strongest, power_of(f_Hz));
-    }
-    std::vector<double> strong_Hz;
-    for (const double f_Hz : seen_Hz_) {
-      const double power = power_of(f_Hz);
-      const bool is_top = power > 0.5 * spectrum_.largest_near(f_Hz, spectrum_.reach_Hz());
-      if (is_top && power > thresholds::kHumImage * strongest) strong_Hz.push_back(f_Hz);
-    }
-    return strong_Hz;
+  /// Returns the new lines that are no images of others.
+  [[nodiscard]] std::vector<double> without_images() const {
+    std::vector<double> lines_Hz = seen_Hz_;
+    std::erase_if(lines_Hz, [&](double f_Hz) {
+      return !(power_of(f_Hz) > 0.5 * spectrum_.largest_near(f_Hz, spectrum_.reach_Hz()));
+    });
+    return lines_Hz;
   }
 
  private:
@@ -380,21 +372,15 @@ std::vector<double> refine_hum(const Recording& recording, const BlockFit& fit, 
   return refine_all(fit, Rest(recording, fit, std::move(residuals)));
 }
 
-HumSearch find_hum(const Recording& recording, const BlockFit& fit, std::vector<double> residuals,
-                   const std::vector<std::size_t>& outliers) {
+std::vector<double> find_hum(const Recording& recording, const BlockFit& fit, std::vector<double> residuals,
+                             const std::vector<std::size_t>& outliers) {
   for (const std::size_t sample : outliers) residuals[sample] = 0.0;  // they would smear over the spectrum
   Rest rest(recording, fit, std::move(residuals));
-  std::vector<double> strong_Hz;
-  HumSearch found;
-  {
-    const NewLines lines(recording, fit, rest);
-    strong_Hz = lines.strong();
-    found.others_wait = !strong_Hz.empty() && strong_Hz.size() < lines.seen();
-  }
+  const std::vector<double> new_Hz = NewLines(recording, fit, rest).without_images();
   // A new line is taken where its peak is; its hum must be fitted before its frequency is worth refining.
-  found.lines_Hz = refine_all(fit, std::move(rest));
-  found.lines_Hz.insert(found.lines_Hz.end(), strong_Hz.begin(), strong_Hz.end());
-  return found;
+  std::vector<double> lines_Hz = refine_all(fit, std::move(rest));
+  lines_Hz.insert(lines_Hz.end(), new_Hz.begin(), new_Hz.end());
+  return lines_Hz;
 }
 
 namespace {

@@ -121,7 +121,7 @@ class Fitter {
     if (cycles_.size() < thresholds::kFewestSlips) return std::nullopt;
     scales_.time_begin_s = cycles_.front().window_begin_s;
     scales_.time_end_s = cycles_.back().window_end_s;
-    const LevelModel level = first_level(recording_, segmentation_, cycles_, scales_);
+    const LevelModel level = first_level(segmentation_, cycles_);
     if (!level.lines_Hz.empty()) {
       const HumLines hum{level.lines_Hz, scales_.time_begin_s};
       cycles_ = cut_cycles(recording_, segmentation_, half_width_s(start_stiffness_, scales_), excluded_, hum);
@@ -137,7 +137,7 @@ class Fitter {
     // Damping is free before levels are compared: a level a cycle takes up what a wrong zeta does to the troughs.
     if (!std::isfinite(solve(*fit, {held_, false, true, kProbeIterations, kRough}))) return std::nullopt;
     const bool may_wander = reduced_chi2(*fit) > thresholds::kSuspectChi2;
-    if (!level.per_cycle && probe.size() > level.terms && may_wander) {
+    if (probe.size() > level.terms && may_wander) {
       auto wandering = fit_from(probe, {true, 0, level.lines_Hz}, fit->parameters.values, kProbeIterations, kRough);
       if (wandering && level_wanders(*wandering, *fit, held_)) fit = std::move(wandering);
     }
@@ -257,21 +257,20 @@ class Fitter {
       const std::vector<std::size_t> censored = beyond_clip(recording_, quality_, residuals, scales_.noise);
       const std::vector<std::size_t> bad = unexplained_slips(fit);
       residuals = zeroed_at(std::move(residuals), outliers);
-      const HumSearch hum = find_hum(recording_, fit, std::move(residuals.value), outliers);
-      const bool is_clean = outliers.empty() && censored.empty() && bad.empty() && hum.lines_Hz.empty();
+      const std::vector<double> lines_Hz = find_hum(recording_, fit, std::move(residuals.value), outliers);
+      const bool is_clean = outliers.empty() && censored.empty() && bad.empty() && lines_Hz.empty();
       if (is_clean) {
         if (pass == 0) solve(fit, {held_, false, true, kMaxIterations, kFinal});  // it was only rough so far
         return fit;
       }
       excluded_ = united(excluded_, united(outliers, censored));
-      const bool is_settled = is_same_hum(fit, hum.lines_Hz);
-      std::optional<BlockFit> next = recut(std::move(fit), cut(), bad, hum.lines_Hz);
+      const bool is_settled = is_same_hum(fit, lines_Hz);
+      std::optional<BlockFit> next = recut(std::move(fit), cut(), bad, lines_Hz);
       if (!next || !std::isfinite(solve(*next, {held_, false, true, kMaxIterations, kFinal}))) {
         return std::nullopt;
       }
       fit = std::move(*next);
       if (is_settled) break;
-      if (hum.others_wait) continue;
       const double hum_power = 0.5 * std::pow(hum_amplitude(fit), 2);
       if (hum_power < thresholds::kBlurringHum * reduced_chi2(fit) * scales_.noise * scales_.noise) break;
     }

@@ -478,8 +478,7 @@ bool TermFitter::has_term(const BlockFit& fit) const {
 /// explains as much.
 BlockFit TermFitter::with_poorest_level(BlockFit wandering) const {
   const Scales& scales = wandering.scales();
-  LevelModel level = first_level(input_.recording, input_.segmentation, cycles_->cycles(), scales);
-  if (level.per_cycle) return wandering;
+  LevelModel level = first_level(input_.segmentation, cycles_->cycles());
   level.lines_Hz = wandering.level().lines_Hz;
   level.reloading = wandering.level().reloading;
   BlockFit polynomial = started(wandering.with_level(std::move(level), scales), wandering.parameters.values);
