@@ -278,9 +278,6 @@ inline constexpr double kAverageOfSwing = 0.25;
 
 // ## Slips in the trace
 
-/// Rise between two falls over the smaller of them, below which they are one slip in two steps. [1; convention]
-inline constexpr double kPauseRise = 0.5;
-
 /// Rate of a rise over that of the fall before it, above which it belongs to ringing. [1; calibrated: measured slips
 /// with ringing and benchmarks/independent, seeds 1 to 6]
 inline constexpr double kRingingRise = 0.4;
@@ -382,9 +379,6 @@ inline constexpr std::size_t kFewestOfLine = 16;
 /// Mean of the unit vectors of a line's phases at the onsets of the slips, above which it is in step with them.
 /// [1; derived: exp(-0.81 n) by chance with n cycles]
 inline constexpr double kInStep = 0.9;
-
-/// Power of fitted hum over that of the residuals, above which outliers are looked for again. [1; convention]
-inline constexpr double kBlurringHum = 0.5;
 
 // ## Tier
 

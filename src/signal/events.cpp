@@ -88,12 +88,6 @@ double range_of(const Means& trace) {
   return extent.range();
 }
 
-/// A slip in two steps: what rises between is small.
-bool is_pause(const SeenFall& first, const SeenFall& second) {
-  const double rise = second.peak.value - first.trough.value;
-  return rise < thresholds::kPauseRise * std::min(first.drop(), second.drop());
-}
-
 /// Falls whose rise between is nearly as quick as they are belong together: the body or the load cell rings. Where the
 /// rises that are left are no slower than those, nothing rings: it is a wave. Then the falls as they were.
 std::vector<SeenFall> joined(std::vector<SeenFall> falls) {
@@ -105,8 +99,7 @@ std::vector<SeenFall> joined(std::vector<SeenFall> falls) {
     const SeenFall& fall = falls[i];
     const double own = rate(fall);
     const double rise = i == 0 ? 0.0 : rate(falls[i - 1].trough, fall.peak);
-    const bool rings_on =
-        rise > thresholds::kRingingRise * std::max(own, before) || (i > 0 && is_pause(falls[i - 1], fall));
+    const bool rings_on = rise > thresholds::kRingingRise * std::max(own, before);
     before = own;
     if (i > 0) (rings_on ? rings : sticks).push_back(rise);
     if (!rings_on) {

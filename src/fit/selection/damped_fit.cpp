@@ -30,7 +30,8 @@ constexpr std::size_t kMiddleCycles = 64;
 constexpr std::size_t kManyCycles = 2 * kMiddleCycles;
 constexpr int kMiddleIterations = 20;  // what creeps on does not explain the slips
 constexpr int kQuickIterations = 8;
-constexpr int kCleanPasses = 4;
+constexpr int kHumPasses = 4;
+constexpr int kCleanPasses = 2;
 constexpr int kProbeIterations = 12;
 constexpr int kRoughIterations = 20;
 constexpr int kMaxIterations = 60;
@@ -155,7 +156,7 @@ class Fitter {
 
   /// The spectrum determines the frequencies of lines less well than a fit of some cycles from the first to the last.
   [[nodiscard]] BlockFit with_settled_hum(BlockFit middle) {
-    for (int pass = 0; pass < kCleanPasses && !middle.level().lines_Hz.empty(); ++pass) {
+    for (int pass = 0; pass < kHumPasses && !middle.level().lines_Hz.empty(); ++pass) {
       const Residuals residuals = without(residuals_of(recording_, middle), excluded_);
       const std::vector<double> lines_Hz = refine_hum(recording_, middle, residuals.value);
       if (is_same_hum(middle, lines_Hz)) break;
@@ -247,32 +248,26 @@ class Fitter {
     return std::isfinite(solve(fit, {held_, false, true, kMaxIterations, tolerance}));
   }
 
-  /// Leaves out samples far from the fit and slips that it cannot explain, takes mains hum into the model, and refits.
-  /// Where there was much hum, again: the next residuals show its frequency and the outliers more clearly.
+  /// Leaves out samples far from the fit and slips that it cannot explain, takes interference into the model, and
+  /// refits. Where there was interference, again: it conceals weaker lines and outliers.
   std::optional<BlockFit> with_clean_data(BlockFit fit) {
     for (int pass = 0; pass < kCleanPasses; ++pass) {
-      Residuals residuals = residuals_of(recording_, fit);
-      residuals = without(std::move(residuals), excluded_);
+      Residuals residuals = without(residuals_of(recording_, fit), excluded_);
       const std::vector<std::size_t> outliers = find_outliers(residuals, scales_.noise);
       const std::vector<std::size_t> censored = beyond_clip(recording_, quality_, residuals, scales_.noise);
       const std::vector<std::size_t> bad = unexplained_slips(fit);
       residuals = zeroed_at(std::move(residuals), outliers);
       const std::vector<double> lines_Hz = find_hum(recording_, fit, std::move(residuals.value), outliers);
-      const bool is_clean = outliers.empty() && censored.empty() && bad.empty() && lines_Hz.empty();
-      if (is_clean) {
+      if (outliers.empty() && censored.empty() && bad.empty() && lines_Hz.empty()) {
         if (pass == 0) solve(fit, {held_, false, true, kMaxIterations, kFinal});  // it was only rough so far
-        return fit;
+        break;
       }
       excluded_ = united(excluded_, united(outliers, censored));
-      const bool is_settled = is_same_hum(fit, lines_Hz);
+      const bool is_settled = lines_Hz.empty() || is_same_hum(fit, lines_Hz);
       std::optional<BlockFit> next = recut(std::move(fit), cut(), bad, lines_Hz);
-      if (!next || !std::isfinite(solve(*next, {held_, false, true, kMaxIterations, kFinal}))) {
-        return std::nullopt;
-      }
+      if (!next || !std::isfinite(solve(*next, {held_, false, true, kMaxIterations, kFinal}))) return std::nullopt;
       fit = std::move(*next);
       if (is_settled) break;
-      const double hum_power = 0.5 * std::pow(hum_amplitude(fit), 2);
-      if (hum_power < thresholds::kBlurringHum * reduced_chi2(fit) * scales_.noise * scales_.noise) break;
     }
     return fit;
   }
