@@ -203,11 +203,6 @@ bool hum_makes_falls(const Signals& signals) {
                              [&](const SuspiciousLine& line) { return line.swing > signals.segmentation.hysteresis; });
 }
 
-/// Noise is so large that slips are missed.
-bool noise_hides_slips(const Signals& signals) {
-  return median_drop(signals.segmentation) < thresholds::kHiding * signals.quality.noise_rms;
-}
-
 /// Returns the count with an interval that includes the frequency of the spectrum.
 Estimate reaching(Estimate counted, const SpectralFrequency& spectral) {
   const double spectral_Hz = *spectral.value_Hz;
@@ -237,8 +232,7 @@ FrequencyReport of_trace(const Recording& recording, const Signals& signals, con
   // A repetition near the count may be that of the slips, with some hidden or made by hum. One far from it is another
   // thing: pick-up, ringing.
   const bool near = difference && *difference < thresholds::kAnotherThing;
-  const bool contradict = !agree && (noise_hides_slips(signals) || (near && may_be_hum(signals)) ||
-                                     (!difference && hum_makes_falls(signals)));
+  const bool contradict = !agree && ((near && may_be_hum(signals)) || (!difference && hum_makes_falls(signals)));
   // The count may be of noise or of hum.
   const bool hidden = classification.motion == MotionClass::OscillatorySlip && !agree &&
                       !(keeps_rhythm(signals.segmentation) && !is_faint(signals.segmentation) && !may_be_hum(signals));
@@ -254,8 +248,7 @@ FrequencyReport of_trace(const Recording& recording, const Signals& signals, con
     report.quoted = near && !agree ? reaching(counted, spectral) : counted;
     if (difference && !near) report.quoted.note = fmt::format("the spectrum shows {:.4g} Hz", *spectral.value_Hz);
   } else {
-    report.quoted.note =
-        "hum or noise as large as the slips may have added or concealed some, and the spectrum does not agree";
+    report.quoted.note = "hum as large as the slips may have added or concealed some, and the spectrum does not agree";
   }
   return report;
 }

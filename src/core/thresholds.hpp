@@ -142,9 +142,6 @@ inline constexpr double kFewestCycleSamples = 4.0;
 /// Scatter over mean of the intervals, above which slips are counted even if there is a fit. [1; convention]
 inline constexpr double kCounted = 0.15;
 
-/// Drop over noise of a sample, below which noise conceals slips. [1; calibrated: simulated slips are missed below 3]
-inline constexpr double kHiding = 6.0;
-
 /// Relative distance of frequencies, or of lengths of waves, that are the same. [1; convention]
 inline constexpr double kAlike = 0.05;
 

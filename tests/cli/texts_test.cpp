@@ -51,7 +51,7 @@ TEST_CASE("AICc is printed with the compared model, the sign in words and the th
 TEST_CASE("the residual is printed as a multiple of the noise, with its whiteness") {
   const std::string text = fit_text({"--speed", "10mm/s"});
   CHECK_THAT(text, Contains("0.99 times the noise (reduced chi2 0.98)"));
-  CHECK_THAT(text, Contains("residuals: consistent with white noise (whiteness p 0.15, level 0.001)"));
+  CHECK_THAT(text, Contains("residuals: consistent with white noise (whiteness p 0.14, level 0.001)"));
 }
 
 TEST_CASE("forces without a stated zero are conditional, with the condition and the remedy, in text and page") {

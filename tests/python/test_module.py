@@ -198,7 +198,7 @@ def test_a_recording_with_a_worn_track_survives_a_pickle(demo, tmp_path):
 
 def test_notebooks_show_results(demo_fit, sweep):
     shown = demo_fit._repr_html_()
-    for expected in ("stick-slip", "tangential stiffness", "conditional", "nterference at 49.98 Hz", "<svg", "95 % interval"):
+    for expected in ("stick-slip", "tangential stiffness", "conditional", "nterference at 49.99 Hz", "<svg", "95 % interval"):
         assert expected in shown
     assert "<script" not in shown and len(shown) < 60_000
     assert "tangential stiffness" in sweep._repr_html_()

@@ -241,7 +241,7 @@ def test_every_result_has_a_line_and_a_page_for_notebooks(demo, demo_fit, sweep,
         assert repr(one).startswith("<") and "\n" not in repr(one) and len(repr(one)) < 250, repr(one)
         assert one._repr_html_().startswith("<"), type(one)
     assert repr(sf.compare(demo_fit, demo_fit)).startswith("<slipfit.Comparison No difference is shown in any of ")
-    assert "tangential stiffness" in demo_fit.parameters._repr_html_() and "stiffness_N_per_m: 5000.2" in repr(demo_fit.parameters)
+    assert "tangential stiffness" in demo_fit.parameters._repr_html_() and "stiffness_N_per_m: 5000.4" in repr(demo_fit.parameters)
 
 
 def test_the_document_says_how_it_was_made(demo, demo_fit, tmp_path):
