@@ -271,7 +271,7 @@ class Assembler {
     if (outcome_.static_friction) {
       sweep.result.warnings.push_back(
           {"static_friction_ages",
-           "static friction increases with the logarithm of the stick time (ageing_N); predictions include this"});
+           "static friction changes with the logarithm of the stick time (ageing_N); predictions include this"});
     } else if (!sweep.difference_shared) {
       sweep.result.warnings.push_back(
           {"static_friction_differs",

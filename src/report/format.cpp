@@ -153,7 +153,7 @@ std::string in_speed_unit(const std::string& note, const std::string& given) {
   constexpr std::string_view kUnit = " m/s";
   std::string text;
   std::size_t done = 0;
-  for (std::size_t at = note.find(kUnit); at != std::string::npos && !given.empty(); at = note.find(kUnit, done)) {
+  for (std::size_t at = note.find(kUnit); at != std::string::npos; at = note.find(kUnit, done)) {
     // 0 where all before it are of the number.
     const std::size_t begin = at == 0 ? 0 : note.find_last_not_of("0123456789.e+-", at - 1) + 1;
     double m_per_s = 0.0;

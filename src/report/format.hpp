@@ -35,8 +35,7 @@ DisplayUnit suitable_unit(const Estimate& estimate, const std::string& SI_unit);
 /// The unit that the speed was given in; where none is known, the one that suits `typical_m_per_s`.
 DisplayUnit speed_unit(const std::string& given, std::optional<double> typical_m_per_s);
 
-/// A note of the library with its speeds, which are in m/s, in the unit that the user gives speeds in; as it is where
-/// that is not known.
+/// A note of the library with its speeds, which are in m/s, in the unit that tables have them in (speed_unit).
 std::string in_speed_unit(const std::string& note, const std::string& given);
 
 Estimate scaled(const Estimate& estimate, double factor);

@@ -4,6 +4,7 @@
 #include <boost/math/special_functions/lambert_w.hpp>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <random>
 #include <string>
 #include <utility>
@@ -16,6 +17,8 @@
 #include "predict/draws.hpp"
 #include "slipfit/predict/plan.hpp"
 #include "slipfit/predict/prediction.hpp"
+#include "slipfit/report/fit_document.hpp"
+#include "slipfit/report/sweep.hpp"
 #include "slipfit/sweep.hpp"
 #include "speed_sweep.hpp"
 #include "support/holds.hpp"
@@ -324,4 +327,17 @@ TEST_CASE("next to the end of stick-slip the motion is known for a static fricti
       }
     }
   }
+}
+
+TEST_CASE("a document whose static friction falls with the time of rest is read as well") {
+  const std::vector<SweepEntry> entries = test::record(ageing_slider(), kSpeeds, 100);
+  nlohmann::json document = nlohmann::json::parse(to_json(entries, analyze_sweep(entries)));
+  nlohmann::json& correlation = document["correlation"];
+  for (std::size_t i = 0; i < correlation["names"].size(); ++i) {
+    if (correlation["names"][i] == "ageing_N") correlation["values"][i] = -0.1;
+  }
+  const auto read = read_fit_document(document.dump(), "fit.json");
+  REQUIRE(read);
+  REQUIRE(read.value().model.estimate.ageing);
+  CHECK(read.value().model.estimate.ageing->rate_N == -0.1);
 }

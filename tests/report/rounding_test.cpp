@@ -72,7 +72,7 @@ TEST_CASE("prefixes bring a number to between 1 and 1000") {
 TEST_CASE("speeds in notes are in the unit that the user gives speeds in") {
   CHECK(slipfit::in_speed_unit("above 0.0025 m/s, the fastest run", "mm/min") == "above 150 mm/min, the fastest run");
   CHECK(slipfit::in_speed_unit("0.001 m/s to 2e-3 m/s", "mm/s") == "1 mm/s to 2 mm/s");
-  CHECK(slipfit::in_speed_unit("above 0.0025 m/s", "") == "above 0.0025 m/s");
+  CHECK(slipfit::in_speed_unit("above 0.0025 m/s", "") == "above 2.5 mm/s");
   CHECK(slipfit::in_speed_unit("an acceleration of 2 m/s2", "mm/s") == "an acceleration of 2 m/s2");
   CHECK(slipfit::in_speed_unit("in m/s", "mm/s") == "in m/s");
   CHECK(slipfit::in_speed_unit(" m/s", "mm/s") == " m/s");

@@ -150,7 +150,7 @@ class ModelReader {
       estimate.speed_dependence = SpeedDependence{working_value(Id::FrictionSlope), working_value(Id::Alpha)};
     }
     if (const auto stick_s = document_.known("model", "ageing_reference_s")) {
-      const double rate_N = positive_value(Id::Ageing);
+      const double rate_N = working_value(Id::Ageing);  // below 0 where friction falls with the time of rest
       const double cutoff_s = row_of(Id::AgeingTime) ? working_value(Id::AgeingTime) : 0.0;
       if (!(cutoff_s >= 0.0)) refuse("ageing_time_s is below 0");
       estimate.ageing = Ageing{rate_N, stick_s->positive(), cutoff_s};
