@@ -95,11 +95,11 @@ class BeneathHum {
     if (!slips_ || std::min(slips_->slips.size(), seen.segmentation.slips.size()) < kFewSlips + 2) return false;
     const double ratio = misfit_of_few(seen.quality, *slips_) / misfit_of_few(seen.quality, seen.segmentation);
     if (ratio > kSure) slips_.reset();
-    is_sure_ = kSure * ratio < 1.0;
+    is_sure_ = kSure * ratio < thresholds::kClearlyBetter;
     return is_sure_;
   }
 
-  /// Returns the fit of the slips seen, or that beneath the mains where it is better.
+  /// Lines of the mains in the level take up some noise by themselves: a fit beneath them has to be clearly better.
   [[nodiscard]] Estimates better_of(Estimates seen) {
     find_slips(seen.signals);
     const Quality& quality = seen.signals.quality;
@@ -109,7 +109,7 @@ class BeneathHum {
     if (is_sure_ && !std::isfinite(misfit)) {
       seen.fit = fit_recording(recording_, quality, seen.signals.segmentation, options_);
     }
-    if (!(misfit < misfit_of(seen.fit))) return seen;
+    if (!(misfit < thresholds::kClearlyBetter * misfit_of(seen.fit))) return seen;
     seen.signals.segmentation = *std::move(slips_);
     seen.signals.spectral = frequency_of(recording_, seen.signals).spectral;
     seen.fit = std::move(other);

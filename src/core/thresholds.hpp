@@ -233,6 +233,12 @@ inline constexpr std::size_t kFewestSwings = 4;
 /// [1; convention: stiffness and mass differ by less than a factor of four between the two]
 inline constexpr double kInertialSlip = 0.5;
 
+// ## Fit beneath the mains
+
+/// Misfit beneath the mains over that of the trace as it is, below which it is kept. [1; calibrated: lines in the level
+/// take up some noise by themselves]
+inline constexpr double kClearlyBetter = 0.95;
+
 // ## Measured drive
 
 /// Force by which a measured drive moves in a slip over the drop of the slip, above which what the slips show is
@@ -372,6 +378,10 @@ inline constexpr double kUnlikeCycles = 0.5;
 /// Fewest cycles with which a line, or a wave of the level, is sought. [count; derived: exp(-0.25 n) is a percent of
 /// chance there]
 inline constexpr std::size_t kFewestOfLine = 16;
+
+/// Power of a line over that of the strongest in the same residuals, below which it may be an image of it. [1;
+/// calibrated: images are below 0.022 for 60 simulated recordings with hum]
+inline constexpr double kHumImage = 0.1;
 
 /// Mean of the unit vectors of a line's phases at the onsets of the slips, above which it is in step with them.
 /// [1; derived: exp(-0.81 n) by chance with n cycles]

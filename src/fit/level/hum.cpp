@@ -322,11 +322,17 @@ class NewLines {
     }
   }
 
-  /// Returns the new lines that are no images of others.
+  /// Returns the new lines that are no images of others or of what is left of the known ones.
   [[nodiscard]] std::vector<double> without_images() const {
+    double strongest = 0.0;
+    for (const auto* lines_Hz : {&known_Hz_, &seen_Hz_}) {
+      for (const double f_Hz : *lines_Hz) strongest = std::max(strongest, power_of(f_Hz));
+    }
     std::vector<double> lines_Hz = seen_Hz_;
     std::erase_if(lines_Hz, [&](double f_Hz) {
-      return !(power_of(f_Hz) > 0.5 * spectrum_.largest_near(f_Hz, spectrum_.reach_Hz()));
+      const double power = power_of(f_Hz);
+      const bool is_top = power > 0.5 * spectrum_.largest_near(f_Hz, spectrum_.reach_Hz());
+      return !is_top || !(power > thresholds::kHumImage * strongest);
     });
     return lines_Hz;
   }
