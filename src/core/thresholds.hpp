@@ -360,6 +360,13 @@ inline constexpr double kSuspectChi2 = 1.2;
 /// for 12 and more cycles]
 inline constexpr double kWanderingRatio = 3.0;
 
+/// Residual of the polynomial through the middles of the slips over the drop, above which the level wanders. [1;
+/// convention]
+inline constexpr double kWanderingShare = 0.03;
+
+/// Residual of that polynomial over the noise, above which the level wanders. [1; convention]
+inline constexpr double kWanderingNoises = 10.0;
+
 /// Power of a mains line in the residuals over its surroundings, above which it is fitted. [1; derived: 2e-9 by chance
 /// in white noise]
 inline constexpr double kSureHum = 20.0;

@@ -216,13 +216,22 @@ double half_width_s(double stiffness_N_per_m, const Scales& scales) {
          shown_beyond_s({scales.sensor_lag_s, scales.sensor_average_s});
 }
 
-LevelModel first_level(const Segmentation& segmentation, const std::vector<CycleData>& cycles) {
+LevelModel first_level(const Recording& recording, const Segmentation& segmentation,
+                       const std::vector<CycleData>& cycles, const Scales& scales) {
   std::vector<double> middles;
+  std::vector<double> drops;
   for (const CycleData& cycle : cycles) {
     const DetectedSlip& slip = segmentation.slips[cycle.slip];
     middles.push_back(0.5 * (slip.peak_force + slip.trough_force));
+    drops.push_back(slip.drop());
   }
-  return {false, choose_level_terms(middles_s(segmentation, cycles), middles), segmentation.mains_Hz};
+  const std::vector<double> times_s = middles_s(segmentation, cycles);
+  const std::size_t terms = choose_level_terms(times_s, middles);
+  const double left = unexplained_level(times_s, middles, drops, terms);
+  const bool well_sampled = scales.half_period_s > thresholds::kWellSampled * recording.sample_interval_s();
+  const bool wanders = well_sampled && left > thresholds::kWanderingShare * 2.0 * scales.force &&
+                       left > thresholds::kWanderingNoises * scales.noise && cycles.size() >= kFewestWandering;
+  return {wanders, wanders ? 0 : terms, segmentation.mains_Hz};
 }
 
 std::vector<double> middles_s(const Segmentation& segmentation, const std::vector<CycleData>& cycles) {

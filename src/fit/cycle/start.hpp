@@ -34,8 +34,9 @@ double half_width_s(double stiffness_N_per_m, const Scales& scales);
 /// A level of its own in every cycle cannot be distinguished from a polynomial with fewer cycles than this.
 inline constexpr std::size_t kFewestWandering = 12;
 
-/// The level model to begin with: the polynomial that the middles of the slips justify.
-LevelModel first_level(const Segmentation& segmentation, const std::vector<CycleData>& cycles);
+/// The level model to begin with: the polynomial that the middles of the slips justify, or one level a cycle.
+LevelModel first_level(const Recording& recording, const Segmentation& segmentation,
+                       const std::vector<CycleData>& cycles, const Scales& scales);
 
 /// Middles of the cycles' slips.
 std::vector<double> middles_s(const Segmentation& segmentation, const std::vector<CycleData>& cycles);

@@ -66,6 +66,17 @@ std::vector<double> smooth_level(const std::vector<double>& time_s, const std::v
   return {smooth.data(), smooth.data() + smooth.size()};
 }
 
+double unexplained_level(const std::vector<double>& time_s, const std::vector<double>& level,
+                         const std::vector<double>& drop, std::size_t terms) {
+  const auto count = static_cast<Eigen::Index>(time_s.size());
+  const auto columns = static_cast<Eigen::Index>(terms) + 1;
+  if (count <= columns + 1 || !(time_s.back() > time_s.front())) return 0.0;
+  Eigen::MatrixXd basis(count, columns);
+  basis << legendre_basis(time_s, terms), Eigen::Map<const Eigen::VectorXd>(drop.data(), count);
+  const Eigen::Map<const Eigen::VectorXd> values(level.data(), count);
+  return std::sqrt(sum_of_squares_about(basis, values, columns) / static_cast<double>(count - columns));
+}
+
 namespace {
 
 /// Calls `use` with each sample and `factor` times the value of a line there, for one line after the other.

@@ -16,6 +16,11 @@ std::size_t choose_level_terms(const std::vector<double>& time_s, const std::vec
 std::vector<double> smooth_level(const std::vector<double>& time_s, const std::vector<double>& level,
                                  std::size_t terms);
 
+/// Returns the standard deviation of the middles about that polynomial and a multiple of the drops. With one kinetic
+/// friction the middle of a slip varies with its drop, however the static friction scatters.
+double unexplained_level(const std::vector<double>& time_s, const std::vector<double>& level,
+                         const std::vector<double>& drop, std::size_t terms);
+
 /// Adds `factor` times the fitted interference to those of the values at the samples [begin, end) that are not 0.
 void add_hum(const Recording& recording, const BlockFit& fit, std::size_t begin, std::size_t end, double factor,
              std::vector<double>& values);

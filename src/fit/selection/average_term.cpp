@@ -63,12 +63,11 @@ bool rules_out_lag(const FitInput& input, const DampedFit& plain, const BlockFit
   const double lag_s = average.sensor().average_s / std::sqrt(12.0);
   const double longest_lag_s = std::sqrt(kLongTail) * lag_s;
   const auto fitter = TermFitter::create(input, plain, kForgottenLags * longest_lag_s);
-  if (!fitter) return false;
-  const std::array starts{FilterStart{1, lag_s}, FilterStart{1, longest_lag_s}};
-  const std::optional<Minimum> lag = fitter->behind_filter(average, starts, average);
-  if (!lag) return true;
-  const std::optional<Minimum> best = fitter->near(average);
-  return best && fitter->gain_on_some(*best, *lag) > thresholds::kEvidence;
+  const std::optional<Minimum> best = fitter ? fitter->near(average) : std::nullopt;
+  if (!best) return false;
+  const std::optional<Minimum> lag =
+      fitter->behind_filter(best->blocks, std::array{FilterStart{1, lag_s}, FilterStart{1, longest_lag_s}});
+  return !lag || fitter->gain_on_some(*best, *lag) > thresholds::kEvidence;
 }
 
 /// Twice the logarithm of how much more likely a stated mass is by `fit` than by `plain`; 0 where it agrees with

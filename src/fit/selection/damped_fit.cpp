@@ -30,8 +30,7 @@ constexpr std::size_t kMiddleCycles = 64;
 constexpr std::size_t kManyCycles = 2 * kMiddleCycles;
 constexpr int kMiddleIterations = 20;  // what creeps on does not explain the slips
 constexpr int kQuickIterations = 8;
-constexpr int kHumPasses = 4;
-constexpr int kCleanPasses = 2;
+constexpr int kCleanPasses = 4;
 constexpr int kProbeIterations = 12;
 constexpr int kRoughIterations = 20;
 constexpr int kMaxIterations = 60;
@@ -122,7 +121,7 @@ class Fitter {
     if (cycles_.size() < thresholds::kFewestSlips) return std::nullopt;
     scales_.time_begin_s = cycles_.front().window_begin_s;
     scales_.time_end_s = cycles_.back().window_end_s;
-    const LevelModel level = first_level(segmentation_, cycles_);
+    const LevelModel level = first_level(recording_, segmentation_, cycles_, scales_);
     if (!level.lines_Hz.empty()) {
       const HumLines hum{level.lines_Hz, scales_.time_begin_s};
       cycles_ = cut_cycles(recording_, segmentation_, half_width_s(start_stiffness_, scales_), excluded_, hum);
@@ -138,7 +137,7 @@ class Fitter {
     // Damping is free before levels are compared: a level a cycle takes up what a wrong zeta does to the troughs.
     if (!std::isfinite(solve(*fit, {held_, false, true, kProbeIterations, kRough}))) return std::nullopt;
     const bool may_wander = reduced_chi2(*fit) > thresholds::kSuspectChi2;
-    if (probe.size() > level.terms && may_wander) {
+    if (!level.per_cycle && probe.size() > level.terms && may_wander) {
       auto wandering = fit_from(probe, {true, 0, level.lines_Hz}, fit->parameters.values, kProbeIterations, kRough);
       if (wandering && level_wanders(*wandering, *fit, held_)) fit = std::move(wandering);
     }
@@ -156,7 +155,7 @@ class Fitter {
 
   /// The spectrum determines the frequencies of lines less well than a fit of some cycles from the first to the last.
   [[nodiscard]] BlockFit with_settled_hum(BlockFit middle) {
-    for (int pass = 0; pass < kHumPasses && !middle.level().lines_Hz.empty(); ++pass) {
+    for (int pass = 0; pass < kCleanPasses && !middle.level().lines_Hz.empty(); ++pass) {
       const Residuals residuals = without(residuals_of(recording_, middle), excluded_);
       const std::vector<double> lines_Hz = refine_hum(recording_, middle, residuals.value);
       if (is_same_hum(middle, lines_Hz)) break;

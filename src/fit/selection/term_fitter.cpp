@@ -250,8 +250,7 @@ std::optional<Minimum> TermFitter::near(const BlockFit& fit) const {
   return solved(enough_, fit);
 }
 
-std::optional<Minimum> TermFitter::behind_filter(const BlockFit& from, std::span<const FilterStart> starts,
-                                                 const BlockFit& rival) const {
+std::optional<Minimum> TermFitter::behind_filter(const BlockFit& from, std::span<const FilterStart> starts) const {
   Scales scales = scales_of({}, input_.recording.conditions().sensor_average_s.value_or(0.0));
   scales.free_time = FreeTime::Lag;
   std::optional<Minimum> best;
@@ -265,9 +264,7 @@ std::optional<Minimum> TermFitter::behind_filter(const BlockFit& from, std::span
     if (draft && (!best || explains_more(*draft, *best))) best = std::move(draft);
   }
   if (best) best = roughly_settled(std::move(best->blocks), held_, kDescentTolerance);
-  if (!best) return std::nullopt;
-  const std::optional<Minimum> instead = solved(few_, rival);
-  return instead && gain_on(*few_, *instead, *best) > thresholds::kTierPrice ? std::nullopt : near(best->blocks);
+  return best ? near(best->blocks) : std::nullopt;
 }
 
 double TermFitter::gain_on_some(const Minimum& better, const Minimum& other) const {
@@ -478,7 +475,8 @@ bool TermFitter::has_term(const BlockFit& fit) const {
 /// explains as much.
 BlockFit TermFitter::with_poorest_level(BlockFit wandering) const {
   const Scales& scales = wandering.scales();
-  LevelModel level = first_level(input_.segmentation, cycles_->cycles());
+  LevelModel level = first_level(input_.recording, input_.segmentation, cycles_->cycles(), scales);
+  if (level.per_cycle) return wandering;
   level.lines_Hz = wandering.level().lines_Hz;
   level.reloading = wandering.level().reloading;
   BlockFit polynomial = started(wandering.with_level(std::move(level), scales), wandering.parameters.values);

@@ -78,9 +78,8 @@ class TermFitter {
   /// Fits Coulomb friction behind a low-pass filter whose delay is a parameter. The filter takes the place of an
   /// average that nobody stated. The search starts from the slips of `from` with each of `starts`; a few cycles find
   /// the best of them. Returns the minimum of the cycles that compare the terms, or nothing if no start leads to a
-  /// solution or the few cycles rule it out beside `rival`, another fit of the recording.
-  [[nodiscard]] std::optional<Minimum> behind_filter(const BlockFit& from, std::span<const FilterStart> starts,
-                                                     const BlockFit& rival) const;
+  /// solution.
+  [[nodiscard]] std::optional<Minimum> behind_filter(const BlockFit& from, std::span<const FilterStart> starts) const;
 
   /// Twice the logarithm of the likelihood ratio of two fits of these cycles, each at its best noise. Above 0 where
   /// `better` explains them better.

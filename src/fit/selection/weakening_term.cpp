@@ -207,11 +207,11 @@ std::optional<DampedFit> fit_filter(const FitInput& input, const DampedFit& coul
     return FilterStart{order, butterworth_delay(order) / (kFilterCorner * omega_rad_per_s)};
   };
   // The orders of most amplifiers and loggers lie between these two.
-  const std::optional<Minimum> filter =
-      fitter->behind_filter(coulomb.blocks, std::array{start_of(2), start_of(4)}, weakening);
-  if (!filter) return std::nullopt;
+  const std::optional<Minimum> filter = fitter->behind_filter(coulomb.blocks, std::array{start_of(2), start_of(4)});
   const std::optional<Minimum> rival = fitter->near(weakening);
-  if (!rival || fitter->gain_on_all(*rival, *filter) > kRuledOut) return std::nullopt;
+  if (!filter || !rival || fitter->gain_on_all(*rival, *filter) > kRuledOut) {
+    return std::nullopt;
+  }
   return fitter->fit(filter->blocks);
 }
 
