@@ -1,8 +1,7 @@
 #include "fit/level/hum.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
-#include <boost/math/tools/minima.hpp>
 #include <cmath>
 #include <complex>
 #include <numbers>

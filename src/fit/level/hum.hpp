@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "fit/problem/block_fit.hpp"
-#include "fit/selection/outliers.hpp"
 #include "slipfit/core/recording.hpp"
 
 namespace slipfit::fit {
