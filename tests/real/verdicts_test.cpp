@@ -178,6 +178,6 @@ TEST_CASE("a slope of the sensor or fewer samples make no stick-slip of cogging 
     }
     check(row, test::with_force(*recording, std::move(sloping)));
     check(row, recording->part(0, 3 * recording->size() / 5));
-    for (const std::size_t every : {2, 3}) check(row, test::thinned(*recording, every));
+    for (const std::size_t every : {std::size_t{2}, std::size_t{3}}) check(row, test::thinned(*recording, every));
   }
 }

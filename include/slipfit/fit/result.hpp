@@ -90,10 +90,10 @@ struct SpeedDependence {
   double alpha_s_per_m = 0.0;
 };
 
-/// Static friction that grows with the stick time t before the slip (contact ageing): F_s - F_k(0+) = D + rate ln((t +
-/// cut-off) / (reference + cut-off)), where D is ModelEstimate::friction_difference_N. docs/model.md (18)
+/// Static friction that changes with the stick time t before the slip (contact ageing): F_s - F_k(0+) = D + rate ln((t
+/// + cut-off) / (reference + cut-off)), where D is ModelEstimate::friction_difference_N. docs/model.md (18)
 struct Ageing {
-  double rate_N = 0.0;
+  double rate_N = 0.0;  ///< below 0 where static friction falls with the stick time
   double reference_stick_s = 1.0;
   double cutoff_s = 0.0;  ///< >= 0; sticks far shorter than it add nothing to static friction
 };

@@ -465,19 +465,15 @@ bool is_same_hum(const BlockFit& fit, const std::vector<double>& frequencies_Hz)
 }
 
 std::optional<DriveRipple> fitted_ripple(const BlockFit& fit) {
+  const double stick_slope = std::exp(fit.parameters.values(kLogStiffness)) * fit.scales().speed_m_per_s;
   std::optional<DriveRipple> largest;
   for (const FittedLine& line : fitted_lines(fit)) {
-    const double share = speed_share(fit, line.frequency_Hz, line.force);
+    const double share = 2.0 * std::numbers::pi * line.frequency_Hz * line.force / stick_slope;
     const bool may_be_of_drive = !line.is_of_mains && share > thresholds::kNegligible && share < 1.0;
     if (!may_be_of_drive || (largest && share < largest->speed_share)) continue;
-    largest = DriveRipple{line.frequency_Hz, line.force, share};
+    largest = DriveRipple{line.frequency_Hz, share};
   }
   return largest;
-}
-
-double speed_share(const BlockFit& fit, double frequency_Hz, double force) {
-  const double stick_slope = std::exp(fit.parameters.values(kLogStiffness)) * fit.scales().speed_m_per_s;
-  return 2.0 * std::numbers::pi * frequency_Hz * force / stick_slope;
 }
 
 }  // namespace slipfit::fit

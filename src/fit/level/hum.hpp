@@ -58,14 +58,10 @@ class Rest {
 /// A line that a drive may make which runs unevenly: V (1 + r cos w t) gives a force k V r / w in stick.
 struct DriveRipple {
   double frequency_Hz = 0.0;
-  double force = 0.0;        ///< amplitude, in the column's unit
   double speed_share = 0.0;  ///< amplitude of the speed that makes it, over the driving speed
 };
 
-/// Amplitude of the drive's speed that makes a line of this amplitude in stick, over the driving speed.
-double speed_share(const BlockFit& fit, double frequency_Hz, double force);
-
-/// Returns the frequencies of the mains lines that are prominent in the residuals, of the strongest line at another
+/// Returns the frequencies of the mains lines that are prominent in the residuals, and of the strongest line at another
 /// frequency where it is larger than the noise, unless they are in step with the slips.
 /// Small hum is masked by the cycles' own spectrum, but not in the residuals. Lines that the fit has already are looked
 /// at again, so that their frequency follows the better fit.

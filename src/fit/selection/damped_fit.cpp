@@ -255,7 +255,6 @@ class Fitter {
       const std::vector<std::size_t> outliers = find_outliers(residuals, scales_.noise);
       const std::vector<std::size_t> censored = beyond_clip(recording_, quality_, residuals, scales_.noise);
       const std::vector<std::size_t> bad = unexplained_slips(fit);
-      residuals = zeroed_at(std::move(residuals), outliers);
       const std::vector<double> lines_Hz = find_hum(recording_, fit, std::move(residuals.value), outliers);
       if (outliers.empty() && censored.empty() && bad.empty() && lines_Hz.empty()) {
         if (pass == 0) solve(fit, {held_, false, true, kMaxIterations, kFinal});  // it was only rough so far

@@ -93,14 +93,11 @@ Residuals residuals_of(const Recording& recording, const BlockFit& fit) {
   return ResidualsOfCycles(recording, fit).take();
 }
 
-Residuals zeroed_at(Residuals residuals, const std::vector<std::size_t>& excluded) {
-  for (const std::size_t sample : excluded) residuals.value[sample] = 0.0;
-  return residuals;
-}
-
 Residuals without(Residuals residuals, const std::vector<std::size_t>& excluded) {
-  residuals = zeroed_at(std::move(residuals), excluded);
-  for (const std::size_t sample : excluded) residuals.part[sample] = CyclePart::None;
+  for (const std::size_t sample : excluded) {
+    residuals.value[sample] = 0.0;
+    residuals.part[sample] = CyclePart::None;
+  }
   return residuals;
 }
 

@@ -20,9 +20,6 @@ struct Residuals {
 
 Residuals residuals_of(const Recording& recording, const BlockFit& fit);
 
-/// Returns the residuals with 0 at these samples, which stay in their parts.
-Residuals zeroed_at(Residuals residuals, const std::vector<std::size_t>& excluded);
-
 /// Returns the residuals with these samples treated as if they were outside the fitted cycles.
 Residuals without(Residuals residuals, const std::vector<std::size_t>& excluded);
 
