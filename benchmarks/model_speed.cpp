@@ -14,9 +14,9 @@
 #include "predict/draws.hpp"
 #include "slipfit/model/motion.hpp"
 #include "slipfit/model/paper.hpp"
-#include "slipfit/model/sensitivity.hpp"
 #include "slipfit/pipeline.hpp"
 #include "slipfit/predict/prediction.hpp"
+#include "support/sensitivity.hpp"
 #include "support/velocity_motion.hpp"
 #include "usual_recording.hpp"
 

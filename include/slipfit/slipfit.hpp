@@ -13,7 +13,6 @@
 #include "slipfit/io/recording_reader.hpp"
 #include "slipfit/model/motion.hpp"
 #include "slipfit/model/paper.hpp"
-#include "slipfit/model/sensitivity.hpp"
 #include "slipfit/model/simulation.hpp"
 #include "slipfit/model/velocity_friction.hpp"
 #include "slipfit/pipeline.hpp"

@@ -1,4 +1,4 @@
-#include "slipfit/model/sensitivity.hpp"
+#include "support/sensitivity.hpp"
 
 #include <array>
 #include <catch2/catch.hpp>

@@ -8,7 +8,7 @@
 
 #include "slipfit/core/recording.hpp"
 #include "slipfit/model/motion.hpp"
-#include "slipfit/model/sensitivity.hpp"
+#include "support/sensitivity.hpp"
 
 namespace slipfit {
 
