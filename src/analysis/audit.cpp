@@ -39,11 +39,10 @@ Estimate Subject::parameter(Id id, double power) const {
   const double growth = std::exp(power * trend.log_growth_at(speed_m_per_s()));
   const double exponent_error = fit.estimate_of(Id::StiffnessExponent).standard_error.value_or(0.0);
   const double of_trend = power * exponent_error * std::log(speed_m_per_s() / trend.speed_m_per_s);
-  *estimate.value *= growth;
+  estimate = scaled(std::move(estimate), growth);
   if (estimate.standard_error) {
-    estimate.standard_error = std::hypot(*estimate.standard_error * growth, *estimate.value * of_trend);
+    estimate.standard_error = std::hypot(*estimate.standard_error, *estimate.value * of_trend);
   }
-  if (estimate.ci95) estimate.ci95 = Interval{estimate.ci95->low * growth, estimate.ci95->high * growth};
   return estimate;
 }
 
@@ -172,9 +171,7 @@ bool has_error(const Estimate& estimate) {
 /// Standard error on the side of another value: an interval may be longer there.
 double error_towards(const Estimate& estimate, double other) {
   if (!estimate.ci95) return *estimate.standard_error;
-  const double reach =
-      other > *estimate.value ? estimate.ci95->high - *estimate.value : *estimate.value - estimate.ci95->low;
-  return std::max(reach / kNormalQuantile, 0.0);
+  return std::max(reach_towards(estimate, other) / kNormalQuantile, 0.0);
 }
 
 bool contradict(const Estimate& first, const Estimate& second) {

@@ -144,8 +144,7 @@ Estimate ratio_of(const Pair& pair) {
 std::optional<double> p_value_of(const Pair& pair) {
   const Estimate difference = difference_of(pair);
   const double size = std::abs(*difference.value);
-  const double reach =
-      *difference.value > 0.0 ? *difference.value - difference.ci95->low : difference.ci95->high - *difference.value;
+  const double reach = reach_towards(difference, 0.0);
   if (!(reach > 0.0)) return std::nullopt;
   return t_chance(size / reach * t_quantile(pair.degrees_of_freedom), pair.degrees_of_freedom);
 }

@@ -107,4 +107,15 @@ Estimate symmetric(double value, double se, double degrees_of_freedom) {
   return {value, se, Interval{value - half, value + half}, {}};
 }
 
+Estimate scaled(Estimate estimate, double factor) {
+  if (estimate.value) *estimate.value *= factor;
+  if (estimate.standard_error) *estimate.standard_error *= factor;
+  if (estimate.ci95) estimate.ci95 = Interval{estimate.ci95->low * factor, estimate.ci95->high * factor};
+  return estimate;
+}
+
+double reach_towards(const Estimate& estimate, double other) {
+  return other > *estimate.value ? estimate.ci95->high - *estimate.value : *estimate.value - estimate.ci95->low;
+}
+
 }  // namespace slipfit

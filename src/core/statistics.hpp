@@ -148,4 +148,10 @@ double students_factor(double degrees_of_freedom);
 /// Returns an estimate with a symmetric 95 % interval, by default that of the normal distribution.
 Estimate symmetric(double value, double se, double degrees_of_freedom = std::numeric_limits<double>::infinity());
 
+/// Returns the estimate in another unit: value, standard error and interval times a factor above 0.
+Estimate scaled(Estimate estimate, double factor);
+
+/// Returns the length of the 95 % interval, which is known, from the value towards another value.
+double reach_towards(const Estimate& estimate, double other);
+
 }  // namespace slipfit

@@ -176,14 +176,6 @@ std::string with_error(const Estimate& estimate, const std::string& SI_unit) {
   return unit.unit.empty() || text == "-" ? text : text + " " + unit.unit;
 }
 
-Estimate scaled(const Estimate& estimate, double factor) {
-  Estimate result = estimate;
-  if (result.value) *result.value *= factor;
-  if (result.standard_error) *result.standard_error *= factor;
-  if (result.ci95) result.ci95 = Interval{result.ci95->low * factor, result.ci95->high * factor};
-  return result;
-}
-
 std::string force_unit(ForceQuantity quantity) {
   return quantity == ForceQuantity::Force_N ? "N" : "";
 }

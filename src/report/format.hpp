@@ -38,8 +38,6 @@ DisplayUnit speed_unit(const std::string& given, std::optional<double> typical_m
 /// A note of the library with its speeds, which are in m/s, in the unit that tables have them in (speed_unit).
 std::string in_speed_unit(const std::string& note, const std::string& given);
 
-Estimate scaled(const Estimate& estimate, double factor);
-
 EstimateRow estimate_row(const Estimate& SI, const DisplayUnit& unit);
 
 /// "49.3 ms [47.1, 51.7]"; "-" where it is not known.

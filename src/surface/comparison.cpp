@@ -12,11 +12,6 @@
 namespace slipfit {
 namespace {
 
-/// Half of the 95 % interval on the side of the other value.
-double reach_towards(const Estimate& from, double other) {
-  return other > *from.value ? from.ci95->high - *from.value : *from.value - from.ci95->low;
-}
-
 /// A coarse pattern of every second, third, ... slip. A whole number is reported only if its neighbours fit worse.
 std::string ratio_verdict(double ratio, double relative_reach) {
   if (std::abs(ratio - 1.0) < thresholds::kSameSpacing) {

@@ -119,10 +119,7 @@ std::vector<double> bridged(const std::vector<double>& heights) {
 }
 
 Estimate estimate(const surface::MeanSpacing& mean, double scale) {
-  return within(
-      Estimate{
-          mean.value * scale, mean.standard_error * scale, Interval{mean.ci95.low * scale, mean.ci95.high * scale}, {}},
-      kPositive);
+  return within(scaled(Estimate{mean.value, mean.standard_error, mean.ci95, {}}, scale), kPositive);
 }
 
 /// Returns the mean height of the ridges above the next valley; neighbours are treated as independent.
