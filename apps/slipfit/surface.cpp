@@ -35,7 +35,7 @@ double direction(const std::string& text) {
 double length_unit_m(const std::string& text) {
   const auto unit = slipfit::parse_unit(text, slipfit::Dimension::Length);
   if (!unit) refuse("--unit: {}", unit.error().message);
-  return unit.value().scale;
+  return unit.value();
 }
 
 void add_options(CLI::App& command, SurfaceCommand& arguments) {

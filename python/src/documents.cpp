@@ -141,7 +141,7 @@ MeasuredSurface measure(const std::string& file, const std::optional<std::string
                         std::optional<double> pixel_m, std::optional<double> along_rad,
                         const std::optional<std::string>& x_column, const std::optional<std::string>& z_column) {
   ProfileOptions options{std::nullopt, pitch_m, pixel_m, along_rad, x_column, z_column};
-  if (unit) options.unit_m = value_or_raise(parse_unit(*unit, Dimension::Length)).scale;
+  if (unit) options.unit_m = value_or_raise(parse_unit(*unit, Dimension::Length));
   return value_or_raise(without_gil([&] { return measured(file, options); }));
 }
 

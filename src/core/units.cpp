@@ -66,11 +66,11 @@ std::string shown(std::string_view text) {
 
 }  // namespace
 
-Result<UnitScale> parse_unit(std::string_view unit, Dimension dimension) {
+Result<double> parse_unit(std::string_view unit, Dimension dimension) {
   const std::string_view text = trim(unit);
   const auto parsed = read_unit(text);
   const auto scale = parsed ? factor_in(*parsed, text, dimension) : std::nullopt;
-  if (scale) return UnitScale{*scale};
+  if (scale) return *scale;
   const DimensionInfo& info = info_of(dimension);
   return Error{"unknown_unit", join({"'", shown(unit), "' is not a unit of ", info.quantity, "; expected one such as ",
                                      info.examples})};
@@ -100,7 +100,7 @@ Result<double> parse_quantity(std::string_view text, Dimension dimension) {
   if (rest.front() == ';') return bad_number;
   const auto unit = rest.front() == '/' ? parse_unit(join({"1", rest}), dimension) : parse_unit(rest, dimension);
   if (!unit) return unit.error();
-  const double value_SI = value * unit.value().scale;
+  const double value_SI = value * unit.value();
   if (!std::isfinite(value_SI)) return bad_number;
   return value_SI;
 }

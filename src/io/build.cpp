@@ -113,10 +113,10 @@ constexpr std::array kUnitFactors{10.0, 60.0, 1000.0, 6e4, 1e3 / 60.0};
 
 /// "10mm/min" of a stated "10 mm/s" where the displacement moves at that; else the speed of the displacement.
 std::string speed_to_state(const Conditions& stated, double moved_m_per_s) {
-  const Result<UnitScale> unit = parse_unit(stated.speed_unit, Dimension::Speed);
-  const double number = stated.speed_m_per_s / (unit ? unit.value().scale : 1.0);
+  const Result<double> unit = parse_unit(stated.speed_unit, Dimension::Speed);
+  const double number = stated.speed_m_per_s / (unit ? unit.value() : 1.0);
   for (const char* const other : {"mm/min", "mm/s", "um/s", "cm/s", "cm/min", "m/min", "m/s"}) {
-    const double m_per_s = number * parse_unit(other, Dimension::Speed).value().scale;
+    const double m_per_s = number * parse_unit(other, Dimension::Speed).value();
     if (std::abs(m_per_s / moved_m_per_s - 1.0) < kStatedTolerance) return fmt::format("{:.6g}{}", number, other);
   }
   return fmt::format("{:.6g}m/s", moved_m_per_s);

@@ -190,7 +190,7 @@ Channel time_channel(const Request& request, std::size_t column) {
   }
   const auto scale = parse_unit(unit, Dimension::Time);
   if (!scale) throw unit_error(request, column, scale.error().message, "--time-unit");
-  channel.scale = scale.value().scale;
+  channel.scale = scale.value();
   channel.is_clock = is_guess && guess.unit == "d";
   channel.is_unit_assumed = is_guess;
   channel.sentence =
@@ -213,7 +213,7 @@ std::optional<Channel> displacement_as_time(const Request& request) {
   std::ranges::copy_if(way->values, std::back_inserter(numbers), [](double value) { return std::isfinite(value); });
   const double direction = numbers.back() < numbers.front() ? -1.0 : 1.0;
   const auto column = static_cast<std::size_t>(way - columns.begin());
-  return Channel{column, direction * scale.value().scale / request.speed_m_per_s, ForceQuantity::Force_N,
+  return Channel{column, direction * scale.value() / request.speed_m_per_s, ForceQuantity::Force_N,
                  fmt::format("Time is {} divided by the driving speed, t = x/V (the file has no time column).",
                              describe(request.layout, column))};
 }
@@ -404,15 +404,15 @@ Channel force_channel(const Request& request, std::size_t column) {
   const std::string in_unit = fmt::format("in {}{}", printable_utf8(unit), is_stated ? " (as stated)" : "");
   const auto as_force = parse_unit(unit, Dimension::Force);
   if (as_force) {
-    return Channel{column, as_force.value().scale, ForceQuantity::Force_N,
+    return Channel{column, as_force.value(), ForceQuantity::Force_N,
                    fmt::format("Force is {}, {}.", described, in_unit)};
   }
   if (const auto torque = parse_unit(unit, Dimension::Torque)) {
-    return torque_channel(request, column, unit, torque.value().scale);
+    return torque_channel(request, column, unit, torque.value());
   }
   const auto as_number = parse_unit(unit, Dimension::Dimensionless);
   if (!as_number) throw unit_error(request, column, as_force.error().message, force_remedy(unit));
-  return Channel{column, as_number.value().scale, ForceQuantity::FrictionCoefficient,
+  return Channel{column, as_number.value(), ForceQuantity::FrictionCoefficient,
                  fmt::format("Friction coefficient is {}, {}.", described, in_unit)};
 }
 
@@ -433,18 +433,18 @@ std::optional<Channel> in_unit(const Layout& layout, std::size_t column, const R
   const std::string& unit = layout.columns[column].name.unit;
   const auto scale = parse_unit(unit.empty() ? "1" : unit, unit.empty() ? Dimension::Dimensionless : dimension);
   if (!scale) return std::nullopt;
-  return Channel{column, scale.value().scale, ForceQuantity::Force_N, {}};
+  return Channel{column, scale.value(), ForceQuantity::Force_N, {}};
 }
 
 /// In m/s. A speed of rotation needs the radius; a column without a unit is no speed that can be relied on.
 std::optional<Channel> speed_channel(const Layout& layout, std::size_t column, const ReadOptions& options) {
   const std::string& unit = layout.columns[column].name.unit;
   if (const auto speed = parse_unit(unit, Dimension::Speed)) {
-    return Channel{column, speed.value().scale, ForceQuantity::Force_N, {}};
+    return Channel{column, speed.value(), ForceQuantity::Force_N, {}};
   }
   const auto rotation = parse_unit(unit, Dimension::AngularSpeed);
   if (!rotation || !options.radius_m) return std::nullopt;
-  return Channel{column, rotation.value().scale * *options.radius_m, ForceQuantity::Force_N, {}};
+  return Channel{column, rotation.value() * *options.radius_m, ForceQuantity::Force_N, {}};
 }
 
 /// How a column besides time and force is found.

@@ -147,7 +147,7 @@ void set_sensor_filter(ManifestEntry& entry, const std::string& cell) {
 
 template <Dimension dimension, std::optional<std::string> ReadOptions::*target>
 void set_unit(ManifestEntry& entry, const std::string& cell) {
-  const Result<UnitScale> unit = parse_unit(cell, dimension);
+  const Result<double> unit = parse_unit(cell, dimension);
   const bool is_other = dimension == Dimension::Force &&
                         (parse_unit(cell, Dimension::Dimensionless) || parse_unit(cell, Dimension::Torque));
   if (!unit && !is_other) throw ThrownError({"unknown_unit", printable_utf8(unit.error().message)});
@@ -359,10 +359,10 @@ std::optional<ManifestColumn> recognise(const std::string& name, std::size_t ind
     if (text->unit.empty()) return ManifestColumn{&field, index, printable_utf8(name), std::nullopt, {}};
     if (!field.dimension) continue;
     const std::string shown = printable_utf8(text->unit);
-    const Result<UnitScale> unit = parse_unit(text->unit, *field.dimension);
+    const Result<double> unit = parse_unit(text->unit, *field.dimension);
     if (unit.ok()) {
-      const bool is_si = unit.value().scale == 1.0;
-      return ManifestColumn{&field, index, printable_utf8(name), unit.value().scale, is_si ? std::string() : shown};
+      const bool is_si = unit.value() == 1.0;
+      return ManifestColumn{&field, index, printable_utf8(name), unit.value(), is_si ? std::string() : shown};
     }
     if (text->in_brackets) {
       const bool is_rotation =

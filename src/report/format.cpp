@@ -144,7 +144,7 @@ DisplayUnit suitable_unit(const Estimate& estimate, const std::string& SI_unit) 
 
 DisplayUnit speed_unit(const std::string& given, std::optional<double> typical_m_per_s) {
   if (!given.empty()) {
-    if (const auto unit = parse_unit(given, Dimension::Speed)) return {1.0 / unit.value().scale, given};
+    if (const auto unit = parse_unit(given, Dimension::Speed)) return {1.0 / unit.value(), given};
   }
   return display_unit("m/s", typical_m_per_s);
 }

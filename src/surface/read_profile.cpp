@@ -168,7 +168,7 @@ Choice choose(const Layout& layout, const ProfileOptions& options, const std::st
 std::optional<double> scale_of(const Column& column, const ProfileOptions& options) {
   if (options.unit_m) return options.unit_m;
   const auto unit = parse_unit(column.name.unit, Dimension::Length);
-  return unit && !column.name.unit.empty() ? std::optional<double>(unit.value().scale) : std::nullopt;
+  return unit && !column.name.unit.empty() ? std::optional<double>(unit.value()) : std::nullopt;
 }
 
 struct Columns {

@@ -11,7 +11,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   for (const Dimension dimension : {Dimension::Time, Dimension::Length, Dimension::Speed, Dimension::Force,
                                     Dimension::Frequency, Dimension::AngularSpeed, Dimension::Dimensionless}) {
     if (const auto unit = slipfit::parse_unit(text, dimension)) {
-      fuzz::demand(std::isfinite(unit.value().scale) && unit.value().scale > 0.0, "a scale is a number > 0");
+      fuzz::demand(std::isfinite(unit.value()) && unit.value() > 0.0, "a scale is a number > 0");
     } else {
       fuzz::demand_readable(unit.error());
     }

@@ -19,14 +19,10 @@ enum class Dimension {
   Torque          ///< N m ("in lb" included)
 };
 
-/// The factor of a unit: value in SI = scale * value in the unit. (No unit that slipfit accepts has an offset.)
-struct UnitScale {
-  double scale = 1.0;
-};
-
-/// Parses a unit such as "mm/min", "gf", "um/s", "mN", "µs", "%", with SI prefixes, products, quotients and powers. The
+/// Parses a unit such as "mm/min", "gf", "um/s", "mN", "µs", "%", with SI prefixes, products, quotients and powers, and
+/// returns its factor: value in SI = factor * value in the unit. (No unit that slipfit accepts has an offset.) The
 /// error is `unknown_unit` if the text is not a unit or has another dimension.
-Result<UnitScale> parse_unit(std::string_view unit, Dimension dimension);
+Result<double> parse_unit(std::string_view unit, Dimension dimension);
 
 /// Returns the unit of a number as it was written: "mm/min" of "600 mm/min"; empty without a unit.
 std::string_view unit_in(std::string_view text);
