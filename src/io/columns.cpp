@@ -47,13 +47,14 @@ std::string describe(const Layout& layout, std::size_t column) {
 }
 
 std::string list_columns(const Layout& layout) {
-  std::string list = layout.columns.size() == 1 ? "the only column is " : "the columns are ";
-  for (std::size_t c = 0; c < layout.columns.size() && c < kMostListed; ++c) {
+  const std::size_t count = layout.columns.size();
+  const auto text_of = [&](std::size_t c) {
     const std::string& name = layout.columns[c].name.text;
-    list += fmt::format("{}{}{}", c == 0 ? "" : ", ", c + 1, name.empty() ? "" : fmt::format(" '{}'", name));
-  }
-  if (layout.columns.size() > kMostListed) list += fmt::format(" and {} more", layout.columns.size() - kMostListed);
-  return list + (layout.has_names ? "" : " (without names)");
+    return name.empty() ? std::to_string(c + 1) : fmt::format("{} '{}'", c + 1, name);
+  };
+  return (count == 1 ? "the only column is " : "the columns are ") +
+         listed(count, kMostListed, text_of, fmt::format(" and {} more", count - std::min(count, kMostListed))) +
+         (layout.has_names ? "" : " (without names)");
 }
 
 namespace {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <filesystem>
 #include <optional>
@@ -32,6 +33,14 @@ std::string name_of_file(const std::filesystem::path& file);
 
 /// "1 row", "12 rows".
 std::string counted(std::size_t count, std::string_view noun);
+
+/// The texts of the first `most` of `count` items, parted by commas, then `more` if there are more.
+template <class TextOf>
+std::string listed(std::size_t count, std::size_t most, const TextOf& text_of, std::string_view more = ", ...") {
+  std::string list;
+  for (std::size_t i = 0; i < std::min(count, most); ++i) list.append(i == 0 ? "" : ", ").append(text_of(i));
+  return count > most ? list.append(more) : list;
+}
 
 /// Returns an error about a manifest; messages show `file`.
 ThrownError duplicate_id(const std::string& file, const ManifestEntry& entry, std::size_t first_line);

@@ -244,11 +244,8 @@ Step step_with_number(std::span<const Step> steps, std::size_t number, const std
   const auto found = std::ranges::find_if(steps, [&](const Step& step) { return step.number == number; });
   if (found != steps.end()) return *found;
   if (number >= 1 && number <= steps.size()) return steps[number - 1];
-  std::string known;
-  for (std::size_t i = 0; i < std::min(steps.size(), kMostNamed); ++i) {
-    known += fmt::format("{}{}", i == 0 ? "" : ", ", steps[i].number);
-  }
-  if (steps.size() > kMostNamed) known += ", ...";
+  const std::string known =
+      listed(steps.size(), kMostNamed, [&](std::size_t i) { return std::to_string(steps[i].number); });
   throw ThrownError(
       {"unknown_step",
        fmt::format(

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "core/statistics.hpp"
-#include "signal/phase_track.hpp"
 #include "signal/smoothing.hpp"
 
 namespace slipfit::signal {
@@ -89,23 +88,15 @@ std::vector<double> outstanding_peaks(const BandPower& bands, CombRange range, s
   return frequencies;
 }
 
-/// The best of a fine grid about a frequency known to within one resolution.
-Comb best_sharp(const BandPower& bands, double frequency_Hz, double multiple) {
-  Comb best;
-  for (int step = -10; step <= 10; ++step) {
-    const double f = frequency_Hz + 0.1 * static_cast<double>(step) * bands.resolution_Hz();
-    Comb comb = measure_comb(bands, f / multiple, 0.0);
-    if (comb.score > best.score) best = comb;
-  }
-  return best;
-}
-
 void search_peaks(const BandPower& bands, CombRange range, std::vector<Comb>& found) {
   const CombRange lines{range.low_Hz, std::min(4.0 * range.high_Hz, 0.98 * bands.highest_Hz())};
   for (const double peak : outstanding_peaks(bands, lines, 30)) {
     for (const double multiple : {1.0, 2.0, 3.0, 4.0}) {  // it may be a harmonic of a fundamental that is hidden
       const double f = peak / multiple;
-      if (f >= range.low_Hz && f <= range.high_Hz) found.push_back(best_sharp(bands, peak, multiple));
+      if (f < range.low_Hz || f > range.high_Hz) continue;
+      found.push_back(best_comb(bands, 10, 0.0, [&](int step) {  // the peak is known to within one resolution
+        return (peak + 0.1 * step * bands.resolution_Hz()) / multiple;
+      }));
     }
   }
 }

@@ -5,8 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
+
+#include "signal/phase_track.hpp"
+#include "slipfit/core/recording.hpp"
 
 namespace slipfit::signal {
 
@@ -70,6 +74,17 @@ std::vector<Comb> search_combs(const BandPower& bands, CombRange range, CombGrid
 /// Comb at one frequency: ratios and score, no false-alarm probability.
 Comb measure_comb(const BandPower& bands, double frequency_Hz, double relative_width);
 
+/// Returns the comb with the highest score, if above 0, of those at frequency_at(-reach), ..., frequency_at(reach).
+template <class FrequencyAt>
+Comb best_comb(const BandPower& bands, int reach, double relative_width, const FrequencyAt& frequency_at) {
+  Comb best;
+  for (int step = -reach; step <= reach; ++step) {
+    const Comb there = measure_comb(bands, frequency_at(step), relative_width);
+    if (there.score > best.score) best = there;
+  }
+  return best;
+}
+
 /// The samples to which harmonics are fitted; times relative to the middle decorrelate a line and the frequency.
 struct Samples {
   Eigen::VectorXd time_s;
@@ -120,5 +135,9 @@ struct HarmonicStep {
   Eigen::VectorXd influence;  ///< change of the frequency for a unit change of each sample
 };
 HarmonicStep harmonic_step(const Samples& samples, double frequency_Hz, std::size_t harmonics);
+
+/// Least squares of a harmonic series plus a straight line over the whole trace; for few cycles (the cost is cycles x
+/// harmonics^3). The standard error allows for residuals correlated over up to one period. Empty: no convergence.
+std::optional<TrackedFrequency> fit_harmonics(const Recording& recording, double near_Hz, std::size_t harmonics);
 
 }  // namespace slipfit::signal

@@ -70,26 +70,6 @@ void assess_clock(const Recording& recording, Quality& quality) {
 
 }  // namespace
 
-Quality assess_quality(const Recording& recording) {
-  Quality quality;
-  const std::span<const double> force = recording.force();
-  const std::optional<double> step = signal::lattice_step(force);
-  quality.noise_rms = noise_of(force);
-  if (quality.noise_rms <= 0.0) quality.noise_rms = noise_of_held(force);
-  if (step) {
-    quality.quantisation_step = step;
-    quality.noise_rms = std::max(quality.noise_rms, *step / std::sqrt(12.0));  // rounding alone makes that much
-  }
-  const signal::Clipping clipping = signal::find_clipping(force, step);
-  quality.clip_high = clipping.high;
-  quality.clip_low = clipping.low;
-  quality.clipped_samples = clipping.samples;
-  quality.impulse_mask = signal::find_impulses(force, quality.noise_rms);
-  quality.impulses = static_cast<std::size_t>(std::ranges::count(quality.impulse_mask, true));
-  assess_clock(recording, quality);
-  return quality;
-}
-
 }  // namespace slipfit
 
 namespace slipfit::signal {
@@ -123,8 +103,8 @@ bool is_prominent(std::span<const double> force, std::size_t i, std::size_t widt
   return std::min(std::abs(first), std::abs(last)) > allowed && (first > 0.0) == (last > 0.0);
 }
 
-}  // namespace
-
+/// Flags samples, alone or in pairs, that differ from both sides while the sides agree with each other (so that no
+/// peak, trough or fall of a slip is flagged, however few samples it has). Empty: none.
 std::vector<bool> find_impulses(std::span<const double> force, double noise_rms) {
   std::vector<std::size_t> found;
   const double least_step = 0.5 * thresholds::kNoiseSigmas * noise_rms;
@@ -150,8 +130,6 @@ std::vector<bool> find_impulses(std::span<const double> force, double noise_rms)
   for (const std::size_t i : found) mask[i] = true;
   return mask;
 }
-
-namespace {
 
 constexpr std::size_t kSorted = 10000;  // values looked at for the step; all are checked against it
 constexpr std::size_t kFew = 500;       // enough to see that there is none
@@ -222,8 +200,7 @@ std::size_t piled_up(std::span<const double> values, double sign, double end) {
   return static_cast<double>(at_end) > thresholds::kClippedPile * static_cast<double>(at_next) ? at_end : 0;
 }
 
-}  // namespace
-
+/// Step of the lattice on which all values lie, where there is one and fewer than 5 % of the values are distinct.
 std::optional<double> lattice_step(std::span<const double> values) {
   const Eigen::Map<const Eigen::ArrayXd> all(values.data(), std::ssize(values));
   const double lowest = all.minCoeff();
@@ -238,6 +215,13 @@ std::optional<double> lattice_step(std::span<const double> values) {
   if (!fills_lattice(values, distinct.front(), lowest, highest, *step)) return std::nullopt;
   return step;
 }
+
+/// Levels at which the values pile up at the ends of their range.
+struct Clipping {
+  std::optional<double> high;
+  std::optional<double> low;
+  std::size_t samples = 0;
+};
 
 Clipping find_clipping(std::span<const double> values, std::optional<double> step) {
   Clipping clipping;
@@ -256,8 +240,6 @@ Clipping find_clipping(std::span<const double> values, std::optional<double> ste
   }
   return clipping;
 }
-
-namespace {
 
 /// Many neighbours are equal: worth a closer look, which most recordings are spared.
 bool often_repeats(std::span<const double> force) {
@@ -306,4 +288,44 @@ bool has_gap(const Recording& recording, std::size_t first, std::size_t last) {
   return false;
 }
 
+std::vector<double> bridged(std::span<const double> values, const std::vector<bool>& missing) {
+  std::vector<double> result(values.begin(), values.end());
+  for (auto first = std::ranges::find(missing, true); first != missing.end();) {
+    const auto last = std::find(first, missing.end(), false);
+    const auto begin = static_cast<std::size_t>(first - missing.begin());
+    const auto end = static_cast<std::size_t>(last - missing.begin());
+    const double after = end < missing.size() ? values[end] : begin > 0 ? values[begin - 1] : 0.0;
+    const double before = begin > 0 ? values[begin - 1] : after;
+    for (std::size_t k = begin; k < end; ++k) {
+      result[k] = before + (after - before) * static_cast<double>(k + 1 - begin) / static_cast<double>(end + 1 - begin);
+    }
+    first = std::find(last, missing.end(), true);
+  }
+  return result;
+}
+
 }  // namespace slipfit::signal
+
+namespace slipfit {
+
+Quality assess_quality(const Recording& recording) {
+  Quality quality;
+  const std::span<const double> force = recording.force();
+  const std::optional<double> step = signal::lattice_step(force);
+  quality.noise_rms = noise_of(force);
+  if (quality.noise_rms <= 0.0) quality.noise_rms = noise_of_held(force);
+  if (step) {
+    quality.quantisation_step = step;
+    quality.noise_rms = std::max(quality.noise_rms, *step / std::sqrt(12.0));  // rounding alone makes that much
+  }
+  const signal::Clipping clipping = signal::find_clipping(force, step);
+  quality.clip_high = clipping.high;
+  quality.clip_low = clipping.low;
+  quality.clipped_samples = clipping.samples;
+  quality.impulse_mask = signal::find_impulses(force, quality.noise_rms);
+  quality.impulses = static_cast<std::size_t>(std::ranges::count(quality.impulse_mask, true));
+  assess_clock(recording, quality);
+  return quality;
+}
+
+}  // namespace slipfit

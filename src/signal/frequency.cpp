@@ -9,7 +9,6 @@
 #include "core/thresholds.hpp"
 #include "signal/comb.hpp"
 #include "signal/mains.hpp"
-#include "signal/phase_track.hpp"
 #include "signal/transform.hpp"
 #include "slipfit/signal/spectrum.hpp"
 
@@ -126,12 +125,9 @@ Comb without_subharmonic(const BandPower& bands, const Comb& comb) {
     for (std::size_t h = 1; h <= comb.measured; ++h) (h % order == 0 ? shared : own) += comb.power[h - 1];
     if (own > 0.25 * shared || comb.measured < order) continue;
     // Its line need not be where the sub-harmonic would have it to better than a resolution.
-    Comb best;
-    for (int step = -10; step <= 10; ++step) {
-      const double f = comb.frequency_Hz * static_cast<double>(order) + 0.2 * step * bands.resolution_Hz();
-      const Comb there = signal::measure_comb(bands, f, comb.relative_width);
-      if (there.score > best.score) best = there;
-    }
+    Comb best = signal::best_comb(bands, 10, comb.relative_width, [&](int step) {
+      return comb.frequency_Hz * static_cast<double>(order) + 0.2 * step * bands.resolution_Hz();
+    });
     best.false_alarm_probability = comb.false_alarm_probability;
     if (best.ratio[0] > 4.0) return best;
   }
@@ -142,11 +138,8 @@ Comb without_subharmonic(const BandPower& bands, const Comb& comb) {
 Comb narrowed(const BandPower& bands, Comb comb) {
   while (comb.relative_width * comb.frequency_Hz > 1.5 * bands.resolution_Hz()) {
     const double width = 0.5 * comb.relative_width;
-    Comb best;
-    for (const double shift : {-1.0, -0.5, 0.0, 0.5, 1.0}) {
-      const Comb there = signal::measure_comb(bands, comb.frequency_Hz * (1.0 + shift * width), width);
-      if (there.score > best.score) best = there;
-    }
+    const Comb best =
+        signal::best_comb(bands, 2, width, [&](int step) { return comb.frequency_Hz * (1.0 + 0.5 * step * width); });
     if (best.score <= 0.0) break;
     comb.frequency_Hz = best.frequency_Hz;
     comb.relative_width = width;

@@ -1,6 +1,7 @@
 #include "signal/phase_track.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
 #include <span>
@@ -15,6 +16,15 @@ namespace slipfit::signal {
 namespace {
 
 constexpr std::size_t kEnoughToLeaveOne = 12;
+constexpr std::size_t kMostTracked = 10;
+using Pattern = std::array<Complex, kMostTracked>;  ///< one coefficient a harmonic, fundamental first
+
+/// Fourier coefficients of one stretch of whole cycles.
+struct Segment {
+  double samples = 0.0;  ///< 0: too few for coefficients
+  double sum = 0.0;
+  Pattern lines{};
+};
 
 /// exp(-i w t) over the samples: by rotation where the clock is even, else by sine and cosine of every time.
 class Carrier {
@@ -83,8 +93,8 @@ void remove_wander(std::vector<Segment>& segments, double cycle_per_segment, std
   }
 }
 
-}  // namespace
-
+/// Coefficients of segments of `cycles` periods each, slow wander taken off. The first of many segments is left empty:
+/// the first cycle starts at rest and differs.
 std::vector<Segment> cut_segments(const Recording& recording, double frequency_Hz, double cycles,
                                   std::size_t harmonics) {
   const std::span<const double> time = recording.time_s();
@@ -120,6 +130,12 @@ std::vector<Segment> cut_segments(const Recording& recording, double frequency_H
   return segments;
 }
 
+/// The mean advance of the fundamental from one segment to the next, and its coherence (0 ... 1).
+struct Advance {
+  double radians = 0.0;
+  double coherence = 0.0;
+};
+
 Advance advance_of(const std::vector<Segment>& segments) {
   Complex sum = 0.0;
   double size = 0.0;
@@ -131,6 +147,7 @@ Advance advance_of(const std::vector<Segment>& segments) {
   return {std::arg(sum), size > 0.0 ? std::abs(sum) / size : 0.0};
 }
 
+/// Half as many segments of twice the length.
 std::vector<Segment> merge_pairs(const std::vector<Segment>& segments, double advance_rad, std::size_t harmonics) {
   std::vector<Segment> merged(segments.size() / 2);
   for (std::size_t j = 0; j < merged.size(); ++j) {
@@ -146,8 +163,6 @@ std::vector<Segment> merge_pairs(const std::vector<Segment>& segments, double ad
   }
   return merged;
 }
-
-namespace {
 
 constexpr std::size_t kMostSegments = 1024;
 

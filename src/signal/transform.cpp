@@ -8,6 +8,7 @@
 #include <numbers>
 #include <utility>
 
+#include "signal/defects.hpp"
 #include "signal/fftw.hpp"
 #include "slipfit/signal/spectrum.hpp"
 
@@ -19,7 +20,7 @@ using Complex = std::complex<double>;
 
 struct Line {
   double at_middle = 0.0;
-  double slope = 0.0;  ///< a sample
+  double slope = 0.0;  ///< per sample
 };
 
 Line fit_line(std::span<const double> values) {
@@ -36,7 +37,7 @@ Line fit_line(std::span<const double> values) {
   return {first + sum / n, spread > 0.0 ? moment / spread : 0.0};
 }
 
-/// Detrended, windowed values as the real and imaginary parts of half as many complex ones; zeros behind.
+/// Detrended, windowed values as the real and imaginary parts of half as many complex ones, padded with zeros.
 ComplexTransform::Buffer windowed(std::span<const double> values, std::size_t padded_length) {
   ComplexTransform::Buffer buffer = ComplexTransform::allocate(padded_length / 2);
   auto* out = static_cast<double*>(static_cast<void*>(buffer.get()));
@@ -92,31 +93,14 @@ std::vector<double> real_power(const Complex* z, std::size_t half, double scale)
   return power;
 }
 
-/// On an even clock the samples stay where they are; a line bridges those held.
-UniformTrace bridge(const Recording& recording, const std::vector<bool>& held) {
-  const std::span<const double> force = recording.force();
-  UniformTrace trace{recording.duration_s() / static_cast<double>(force.size() - 1), {force.begin(), force.end()}};
-  for (auto first = std::ranges::find(held, true); first != held.end();) {
-    const auto last = std::find(first, held.end(), false);
-    const auto begin = static_cast<std::size_t>(first - held.begin());
-    const auto end = static_cast<std::size_t>(last - held.begin());
-    const double after = end < held.size() ? force[end] : begin > 0 ? force[begin - 1] : 0.0;
-    const double before = begin > 0 ? force[begin - 1] : after;
-    for (std::size_t k = begin; k < end; ++k) {
-      trace.force[k] =
-          before + (after - before) * static_cast<double>(k + 1 - begin) / static_cast<double>(end + 1 - begin);
-    }
-    first = std::find(last, held.end(), true);
-  }
-  return trace;
-}
-
 }  // namespace
 
 UniformTrace resample(const Recording& recording, const std::vector<bool>& held) {
-  if (recording.clock_is_even()) return bridge(recording, held);
   const std::span<const double> time = recording.time_s();
   const std::span<const double> force = recording.force();
+  if (recording.clock_is_even()) {  // the samples stay where they are
+    return {recording.duration_s() / static_cast<double>(force.size() - 1), bridged(force, held)};
+  }
   // Not more than twice the samples: a clock of bursts and long gaps must not fill the memory.
   const double step =
       std::max(recording.sample_interval_s(), recording.duration_s() / (2.0 * static_cast<double>(time.size())));

@@ -10,6 +10,7 @@
 #include "core/statistics.hpp"
 #include "core/thresholds.hpp"
 #include "core/unknown.hpp"
+#include "signal/defects.hpp"
 #include "signal/smoothing.hpp"
 #include "slipfit/core/range.hpp"
 #include "slipfit/surface/surface.hpp"
@@ -101,21 +102,11 @@ std::optional<Error> refusal(const Profile& profile) {
   return std::nullopt;
 }
 
-/// Lines over what was not measured.
-std::vector<double> bridged(const std::vector<double>& heights) {
-  std::vector<double> result = heights;
-  std::size_t last = heights.size();  // of the known ones; none so far
-  for (std::size_t i = 0; i < heights.size(); ++i) {
-    if (!std::isfinite(heights[i])) continue;
-    const double from = last < heights.size() ? heights[last] : heights[i];
-    const std::size_t first = last < heights.size() ? last + 1 : 0;
-    for (std::size_t k = first; k < i; ++k) {
-      result[k] = from + (heights[i] - from) * static_cast<double>(k + 1 - first) / static_cast<double>(i + 1 - first);
-    }
-    last = i;
-  }
-  for (std::size_t k = last + 1; k < heights.size(); ++k) result[k] = heights[last];
-  return result;
+/// Interpolates missing heights linearly.
+std::vector<double> without_holes(const std::vector<double>& heights) {
+  std::vector<bool> missing(heights.size());
+  std::transform(heights.begin(), heights.end(), missing.begin(), [](double h) { return !std::isfinite(h); });
+  return signal::bridged(heights, missing);
 }
 
 Estimate estimate(const surface::MeanSpacing& mean, double scale) {
@@ -244,7 +235,7 @@ void warn(Surface& found) {
 
 Result<Surface> measure_surface(const Profile& profile) {
   if (auto error = refusal(profile)) return *error;
-  const std::vector<double> heights = surface::without_form(bridged(profile.height));
+  const std::vector<double> heights = surface::without_form(without_holes(profile.height));
   const std::vector<Pattern> patterns = surface::find_patterns(heights);
   Surface found;
   if (!patterns.empty() && patterns.front().comb_spacing > 0.0) {

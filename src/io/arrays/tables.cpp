@@ -1,5 +1,6 @@
 #include "io/arrays/tables.hpp"
 #include "io/container/formats.hpp"
+#include "io/message.hpp"
 
 #include <algorithm>
 #include <map>
@@ -11,14 +12,6 @@ namespace {
 constexpr std::uint64_t kMostNumbers = std::uint64_t{1} << 28U;
 constexpr std::uint64_t kMostColumns = 1024;
 constexpr std::size_t kMostListed = 12;
-
-std::string listed(const std::vector<ArrayShape>& arrays) {
-  std::string list;
-  for (std::size_t i = 0; i < std::min(arrays.size(), kMostListed); ++i) {
-    list += (i == 0 ? "'" : ", '") + arrays[i].name + "'";
-  }
-  return list + (arrays.size() > kMostListed ? ", ..." : "");
-}
 
 std::uint64_t numbers_in(const TableShape& table) {
   std::uint64_t numbers = 0;
@@ -76,8 +69,10 @@ TableShape wanted_table(const std::vector<ArrayShape>& arrays, const std::string
     best = std::move(table);
   }
   if (best) return *std::move(best);
-  throw Refusal({"unknown_variable", "the file contains no numbers in '" + variable + "' but in " + listed(arrays) +
-                                         "; choose one with --variable"});
+  throw Refusal({"unknown_variable",
+                 "the file contains no numbers in '" + variable + "' but in " +
+                     listed(arrays.size(), kMostListed, [&](std::size_t i) { return "'" + arrays[i].name + "'"; }) +
+                     "; choose one with --variable"});
 }
 
 }  // namespace

@@ -202,13 +202,9 @@ std::size_t find_named(const std::vector<std::string>& names, const std::string&
   if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
   if (const auto place = place_in_list(wanted, names.size())) return *place;
   constexpr std::size_t kMostListed = 12;
-  std::string list;
-  for (std::size_t i = 0; i < std::min(names.size(), kMostListed); ++i) {
-    list += fmt::format("{}{} '{}'", i == 0 ? "" : ", ", i + 1, printable_utf8(names[i]));
-  }
-  throw ThrownError(
-      {"unknown_sheet", fmt::format("{}: contains no '{}', only {}{}; choose one with --sheet", file,
-                                    printable_utf8(wanted), list, names.size() > kMostListed ? ", ..." : "")});
+  const auto text_of = [&](std::size_t i) { return fmt::format("{} '{}'", i + 1, printable_utf8(names[i])); };
+  throw ThrownError({"unknown_sheet", fmt::format("{}: contains no '{}', only {}; choose one with --sheet", file,
+                                                  printable_utf8(wanted), listed(names.size(), kMostListed, text_of))});
 }
 
 }  // namespace slipfit::reading
