@@ -172,8 +172,10 @@ std::optional<RingDown> by_least_squares(const Recording& recording, const Swing
                   symmetric(sine->decay_per_s / natural, ratio_error, freedom)};
 }
 
-}  // namespace
-
+/// After the largest fall after `begin` (sample), where it is at least `least_fall`: half periods between turning
+/// points, and the logarithmic decrement of the swings between them, the first one aside (the contact still holds).
+/// Intervals from their scatter, so that a ring whose frequency or damping changes with its size has wide ones. Empty
+/// where fewer than four swings that decay exceed the noise.
 std::optional<RingDown> find_ring_down(const Recording& recording, std::size_t begin, double noise, double least_fall) {
   if (begin + 8 > recording.size()) return std::nullopt;
   Swings swings;
@@ -208,6 +210,8 @@ std::optional<RingDown> find_ring_down(const Recording& recording, std::size_t b
                           symmetric(ratio, ratio_se, static_cast<double>(large) - 2.0)};
   return by_least_squares(recording, swings, large, by_turns).value_or(by_turns);
 }
+
+}  // namespace
 
 std::optional<RingDown> ring_down_after_release(const Detected& detected) {
   if (detected.signals.segmentation.slips.empty()) return std::nullopt;
@@ -274,9 +278,9 @@ std::optional<RunUp> run_up(const Detected& detected, const Trace& trace, Motion
     return ramp->peak + trace.half < first ? ramp : std::nullopt;
   }
   const double low = trace.force[ramp->begin] + 0.25 * ramp->rise;
-  const auto behind = trace.force.begin() + static_cast<std::ptrdiff_t>(ramp->peak);
-  const auto fallen = std::count_if(behind, trace.force.end(), [&](double force) { return force < low; });
-  const auto all = static_cast<double>(trace.force.end() - behind);
+  const auto after = trace.force.begin() + static_cast<std::ptrdiff_t>(ramp->peak);
+  const auto fallen = std::count_if(after, trace.force.end(), [&](double force) { return force < low; });
+  const auto all = static_cast<double>(trace.force.end() - after);
   return static_cast<double>(fallen) < thresholds::kReleased * all ? ramp : std::nullopt;
 }
 

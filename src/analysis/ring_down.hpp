@@ -22,12 +22,6 @@ struct DampedSine {
 std::optional<DampedSine> fit_damped_sine(std::span<const double> time_s, std::span<const double> force,
                                           double omega_rad_per_s, double decay_per_s);
 
-/// After the largest fall behind `begin` (sample), where it is at least `least_fall`: half periods between turning
-/// points, and the logarithmic decrement of the swings between them, the first one aside (the contact still holds).
-/// Intervals from their scatter, so that a ring whose frequency or damping changes with its size has wide ones. Empty
-/// where fewer than four swings that decay exceed the noise.
-std::optional<RingDown> find_ring_down(const Recording& recording, std::size_t begin, double noise, double least_fall);
-
 /// Detects the ring-down after the release of a recording that sticks and slips to the end of its sliding; empty
 /// without one.
 std::optional<RingDown> ring_down_after_release(const Detected& detected);

@@ -137,6 +137,90 @@ std::string Drawing::hatches(const std::string& id) const {
 namespace {
 
 // Pixels.
+constexpr double kLineHeight = 18.0;
+constexpr double kCharacter = 6.6;  // mean width of a letter at 12 px
+constexpr double kSample = 26.0;    // length of a line in the legend
+constexpr double kGap = 22.0;       // between two entries in a row
+
+struct Spot {
+  double x = 0.0;
+  double y = 0.0;
+};
+
+struct Entry {
+  std::string name;
+  std::function<void(Drawing&, Spot)> draw_sample;  ///< with the left end of the sample, in the middle of the row
+
+  [[nodiscard]] double width() const { return kSample + kGap + kCharacter * letters_in(name); }
+};
+
+/// `id` is that of the picture.
+std::vector<Entry> entries_of(const Panel& panel, const std::string& id) {
+  std::vector<Entry> entries;
+  if (panel.legend_at == LegendAt::None) return entries;
+  for (const Line& line : panel.lines) {
+    entries.push_back({line.name, [&line](Drawing& drawing, Spot at) {
+                         drawing.line(at.x, at.y, at.x + kSample, at.y, drawing.stroke_style(line));
+                       }});
+  }
+  for (const Markers& markers : panel.markers) {
+    entries.push_back({markers.name, [&markers](Drawing& drawing, Spot at) {
+                         drawing.markers({{at.x + 0.5 * kSample, at.y}}, markers.colour, markers.shape);
+                       }});
+  }
+  for (const Area& area : panel.areas) {
+    entries.push_back({area.name, [&area, &id](Drawing& drawing, Spot at) {
+                         drawing.box(at.x, at.y - 6.0, kSample, 12.0, drawing.area_style(area, id));
+                       }});
+  }
+  std::erase_if(entries, [](const Entry& entry) { return entry.name.empty(); });
+  return entries;
+}
+
+/// Returns the position of each entry of a legend above the axes, from the upper left corner; a full row starts another
+/// one.
+std::vector<Spot> rows_of(const std::vector<Entry>& entries, double width_px) {
+  std::vector<Spot> spots;
+  Spot next;
+  for (const Entry& entry : entries) {
+    if (next.x > 0.0 && next.x + entry.width() - kGap > width_px) next = {0.0, next.y + kLineHeight};
+    spots.push_back(next);
+    next.x += entry.width();
+  }
+  return spots;
+}
+
+/// The room inside the axes of a panel, in pixels.
+struct Frame {
+  double left = 0.0;
+  double top = 0.0;
+  double width = 0.0;
+  double height = 0.0;
+};
+
+/// Room that the legend takes above the axes; 0 without one.
+double legend_height_px(const Panel& panel, double width_px) {
+  const std::vector<Entry> entries = entries_of(panel, {});
+  if (entries.empty()) return 0.0;
+  return rows_of(entries, width_px).back().y + kLineHeight + 6.0;
+}
+
+/// Draws the entries of everything with a name, in the order lines, markers, areas. `id` is that of the picture.
+void draw_legend(Drawing& drawing, const Panel& panel, const Frame& frame, const std::string& id) {
+  const std::vector<Entry> entries = entries_of(panel, id);
+  if (entries.empty()) return;
+  const double top = frame.top - legend_height_px(panel, frame.width) + 0.5 * kLineHeight;
+  const std::vector<Spot> spots = rows_of(entries, frame.width);
+  drawing.raw("<g class=\"entries\">\n");
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    const Spot spot{frame.left + spots[i].x, top + spots[i].y};
+    drawing.text(spot.x + kSample + 7.0, spot.y + 4.0, entries[i].name, "value");
+    entries[i].draw_sample(drawing, spot);
+  }
+  drawing.raw("</g>\n");
+}
+
+// Pixels.
 constexpr double kLeft = 74.0;
 constexpr double kRight = 16.0;
 constexpr double kAxisRoom = 52.0;    // below the axes: values and label
@@ -349,7 +433,7 @@ std::string to_svg(const Chart& chart) {
   Drawing drawing(Palette::File);
   double y = 24.0;
   drawing.text(kLeft, y, chart.title, "title");
-  for (const std::string& remark : chart.remarks) drawing.text(kLeft, y += kLineHeight_px, remark, "remark");
+  for (const std::string& remark : chart.remarks) drawing.text(kLeft, y += kLineHeight, remark, "remark");
   y = draw_panels(drawing, chart, y + 14.0, "");
   return fmt::format(
              "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" viewBox=\"0 0 {0:.0f} "
@@ -366,83 +450,6 @@ std::string to_page_svg(const Chart& chart, const PagePlace& place) {
   return fmt::format("<svg class=\"chart\" id=\"{}\" role=\"img\" aria-label=\"{}\" viewBox=\"0 0 {:.0f} {:.0f}\">\n",
                      place.id, escaped(place.label), picture_width(chart), height) +
          hatches_of(drawing, chart, id) + drawing.svg() + "</svg>\n";
-}
-
-namespace {
-
-// Pixels.
-constexpr double kCharacter = 6.6;  // mean width of a letter at 12 px
-constexpr double kSample = 26.0;    // length of a line in the legend
-constexpr double kGap = 22.0;       // between two entries in a row
-
-struct Spot {
-  double x = 0.0;
-  double y = 0.0;
-};
-
-struct Entry {
-  std::string name;
-  std::function<void(Drawing&, Spot)> draw_sample;  ///< with the left end of the sample, in the middle of the row
-
-  [[nodiscard]] double width() const { return kSample + kGap + kCharacter * letters_in(name); }
-};
-
-/// `id` is that of the picture.
-std::vector<Entry> entries_of(const Panel& panel, const std::string& id) {
-  std::vector<Entry> entries;
-  if (panel.legend_at == LegendAt::None) return entries;
-  for (const Line& line : panel.lines) {
-    entries.push_back({line.name, [&line](Drawing& drawing, Spot at) {
-                         drawing.line(at.x, at.y, at.x + kSample, at.y, drawing.stroke_style(line));
-                       }});
-  }
-  for (const Markers& markers : panel.markers) {
-    entries.push_back({markers.name, [&markers](Drawing& drawing, Spot at) {
-                         drawing.markers({{at.x + 0.5 * kSample, at.y}}, markers.colour, markers.shape);
-                       }});
-  }
-  for (const Area& area : panel.areas) {
-    entries.push_back({area.name, [&area, &id](Drawing& drawing, Spot at) {
-                         drawing.box(at.x, at.y - 6.0, kSample, 12.0, drawing.area_style(area, id));
-                       }});
-  }
-  std::erase_if(entries, [](const Entry& entry) { return entry.name.empty(); });
-  return entries;
-}
-
-/// Returns the position of each entry of a legend above the axes, from the upper left corner; a full row starts another
-/// one.
-std::vector<Spot> rows_of(const std::vector<Entry>& entries, double width_px) {
-  std::vector<Spot> spots;
-  Spot next;
-  for (const Entry& entry : entries) {
-    if (next.x > 0.0 && next.x + entry.width() - kGap > width_px) next = {0.0, next.y + kLineHeight_px};
-    spots.push_back(next);
-    next.x += entry.width();
-  }
-  return spots;
-}
-
-}  // namespace
-
-double legend_height_px(const Panel& panel, double width_px) {
-  const std::vector<Entry> entries = entries_of(panel, {});
-  if (entries.empty()) return 0.0;
-  return rows_of(entries, width_px).back().y + kLineHeight_px + 6.0;
-}
-
-void draw_legend(Drawing& drawing, const Panel& panel, const Frame& frame, const std::string& id) {
-  const std::vector<Entry> entries = entries_of(panel, id);
-  if (entries.empty()) return;
-  const double top = frame.top - legend_height_px(panel, frame.width) + 0.5 * kLineHeight_px;
-  const std::vector<Spot> spots = rows_of(entries, frame.width);
-  drawing.raw("<g class=\"entries\">\n");
-  for (std::size_t i = 0; i < entries.size(); ++i) {
-    const Spot spot{frame.left + spots[i].x, top + spots[i].y};
-    drawing.text(spot.x + kSample + 7.0, spot.y + 4.0, entries[i].name, "value");
-    entries[i].draw_sample(drawing, spot);
-  }
-  drawing.raw("</g>\n");
 }
 
 std::string to_page_legend(const Chart& chart, const std::string& id) {

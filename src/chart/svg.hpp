@@ -58,20 +58,4 @@ Axis drawable(Axis axis);
 /// short, some parts.
 std::vector<Tick> ticks_of(const Axis& axis, int most_steps = 8);
 
-constexpr double kLineHeight_px = 18.0;
-
-/// The room inside the axes of a panel, in pixels.
-struct Frame {
-  double left = 0.0;
-  double top = 0.0;
-  double width = 0.0;
-  double height = 0.0;
-};
-
-/// Room that the legend takes above the axes; 0 without one.
-double legend_height_px(const Panel& panel, double width_px);
-
-/// Draws the entries of everything with a name, in the order lines, markers, areas. `id` is that of the picture.
-void draw_legend(Drawing& drawing, const Panel& panel, const Frame& frame, const std::string& id);
-
 }  // namespace slipfit::chart

@@ -17,19 +17,30 @@ namespace {
 constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
 constexpr double kDay_s = 86400.0;
 
-/// The values that may be read from a line. `Where` is compared, not kept.
-/// Behind `kSide` come those of kSideColumns.
-enum Slot : std::size_t { kTime, kForce, kWhere, kSide, kSlots = kSide + kSideColumns.size() };
+/// A column besides time and force: where it is chosen, and where its values are kept.
+struct SideColumn {
+  std::optional<Channel> Choice::*channel = nullptr;
+  std::vector<double> Rows::*values = nullptr;
+  bool is_magnitude = false;  ///< without sign
+};
+constexpr std::array<SideColumn, 4> kSideColumns{{{&Choice::displacement, &Rows::displacement_m, false},
+                                                  {&Choice::normal_force, &Rows::normal_force_N, true},
+                                                  {&Choice::speed, &Rows::speed_m_per_s, true},
+                                                  {&Choice::step, &Rows::step, false}}};
+
+/// The values that may be read from a line. That of `kWhereSlot` is compared, not kept; from `kSideSlot` on follow
+/// those of kSideColumns.
+enum Slot : std::size_t { kTimeSlot, kForceSlot, kWhereSlot, kSideSlot, kSlotCount = kSideSlot + kSideColumns.size() };
 
 /// The numbers of a line; NaN where there is none. There is one for all lines: a copy of what was just written stalls.
 struct Reading {
-  std::array<double, kSlots> values{};
+  std::array<double, kSlotCount> values{};
   bool is_wanted = true;  ///< by --where
 };
 
 struct WantedColumn {
   std::size_t column = 0;
-  std::size_t slot = kTime;
+  std::size_t slot = kTimeSlot;
   double scale = 1.0;  ///< to SI
 };
 
@@ -39,10 +50,10 @@ std::vector<WantedColumn> wanted_columns(const Choice& choice) {
   const auto add = [&](const std::optional<Channel>& channel, std::size_t slot) {
     if (channel) wanted.push_back({channel->column, slot, channel->scale});
   };
-  add(choice.force, kForce);
-  add(choice.time, kTime);
-  for (std::size_t i = 0; i < kSideColumns.size(); ++i) add(choice.*kSideColumns[i].channel, kSide + i);
-  if (choice.where) wanted.push_back({choice.where->column, kWhere});
+  add(choice.force, kForceSlot);
+  add(choice.time, kTimeSlot);
+  for (std::size_t i = 0; i < kSideColumns.size(); ++i) add(choice.*kSideColumns[i].channel, kSideSlot + i);
+  if (choice.where) wanted.push_back({choice.where->column, kWhereSlot});
   std::ranges::stable_sort(wanted, [](const WantedColumn& a, const WantedColumn& b) { return a.column < b.column; });
   return wanted;
 }
@@ -95,7 +106,7 @@ class RowReader {
  private:
   [[nodiscard]] bool has_clock() const { return choice_.time.has_value(); }
   [[nodiscard]] bool is_complete() const {
-    return (std::isfinite(reading_.values[kTime]) || !has_clock()) && std::isfinite(reading_.values[kForce]);
+    return (std::isfinite(reading_.values[kTimeSlot]) || !has_clock()) && std::isfinite(reading_.values[kForceSlot]);
   }
   void read_plain(const char* cell);
   [[nodiscard]] bool is_where(std::string_view cell, double number) const;
@@ -149,7 +160,7 @@ void RowReader::read_plain(const char* cell) {
       const double value = is_whole ? number.value : plain_number(text, dialect_.decimal_comma);
       for (; wanted != last && wanted->column == column; ++wanted) {
         reading_.values[wanted->slot] = value;
-        if (wanted->slot == kWhere) reading_.is_wanted = is_where(text, value);
+        if (wanted->slot == kWhereSlot) reading_.is_wanted = is_where(text, value);
       }
     }
     if (wanted == last) return;
@@ -197,7 +208,7 @@ void RowReader::count_text_line(std::string_view line, unsigned number) {
 /// The cells that cost this line its sample.
 void RowReader::count_unread(unsigned number) {
   for (const WantedColumn& wanted : wanted_) {
-    if ((wanted.slot != kTime && wanted.slot != kForce) || wanted.column >= cells_.size()) continue;
+    if ((wanted.slot != kTimeSlot && wanted.slot != kForceSlot) || wanted.column >= cells_.size()) continue;
     const std::string_view cell = cells_[wanted.column];
     if (read_cell(cell, dialect_.decimal_comma).kind == CellKind::Text) unread_.add(cell, wanted.column, number);
   }
@@ -205,7 +216,7 @@ void RowReader::count_unread(unsigned number) {
 
 void RowReader::turn_into_SI() {
   for (const WantedColumn& wanted : wanted_) reading_.values[wanted.slot] *= wanted.scale;
-  double& time_s = reading_.values[kTime];
+  double& time_s = reading_.values[kTimeSlot];
   if (!has_clock()) {
     time_s = static_cast<double>(counted_++) / sample_rate_Hz_;
   } else if (is_clock_ && std::isfinite(time_s)) {
@@ -218,25 +229,25 @@ void RowReader::turn_into_SI() {
 }
 
 void RowReader::keep(unsigned number) {
-  const std::array<double, kSlots>& values = reading_.values;
-  const double time_s = values[kTime];
+  const std::array<double, kSlotCount>& values = reading_.values;
+  const double time_s = values[kTimeSlot];
   if (window_ && std::isfinite(time_s)) {
     low_s_ = std::min(low_s_, time_s);
     high_s_ = std::max(high_s_, time_s);
     if (time_s < window_->begin_s || time_s > window_->end_s) return;
   }
-  if (!std::isfinite(time_s) || !std::isfinite(values[kForce])) {
+  if (!std::isfinite(time_s) || !std::isfinite(values[kForceSlot])) {
     ++rows_.without_number;
     count_unread(number);
     return;
   }
   note_place(number);
   rows_.time_s.push_back(time_s);
-  rows_.force.push_back(values[kForce]);
+  rows_.force.push_back(values[kForceSlot]);
   for (std::size_t i = 0; i < kSideColumns.size(); ++i) {
     const SideColumn& side = kSideColumns[i];
     if (!(choice_.*side.channel)) continue;
-    const double value = values[kSide + i];
+    const double value = values[kSideSlot + i];
     (rows_.*side.values).push_back(side.is_magnitude ? std::abs(value) : value);
   }
 }
@@ -264,10 +275,10 @@ void for_each_column(Rows& rows, const Change& change) {
 }  // namespace
 
 RowPlace Rows::place_of(std::size_t sample) const {
-  const auto behind = std::upper_bound(places.begin(), places.end(), sample,
-                                       [](std::size_t s, const RowPlace& place) { return s < place.sample; });
-  if (behind == places.begin()) return {sample, sample + 1, 1};
-  const RowPlace& place = *std::prev(behind);
+  const auto next = std::upper_bound(places.begin(), places.end(), sample,
+                                     [](std::size_t s, const RowPlace& place) { return s < place.sample; });
+  if (next == places.begin()) return {sample, sample + 1, 1};
+  const RowPlace& place = *std::prev(next);
   const std::size_t since = sample - place.sample;
   return {sample, place.row + since, place.line + static_cast<unsigned>(since)};
 }

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -24,7 +23,7 @@ struct RowPlace {
   unsigned line = 1;
 };
 
-/// The chosen columns in SI, in the order of the file; time and force are finite. And what was left out.
+/// The chosen columns in SI, in the order of the file, and what was left out; time and force are finite.
 struct Rows {
   std::vector<double> time_s;
   std::vector<double> force;
@@ -52,17 +51,6 @@ struct Rows {
   /// Keeps the samples of these indices, ascending.
   void keep(const std::vector<std::size_t>& samples);
 };
-
-/// A column besides time and force: where it is chosen, and where its values are kept.
-struct SideColumn {
-  std::optional<Channel> Choice::*channel = nullptr;
-  std::vector<double> Rows::*values = nullptr;
-  bool is_magnitude = false;  ///< without sign
-};
-inline constexpr std::array<SideColumn, 4> kSideColumns{{{&Choice::displacement, &Rows::displacement_m, false},
-                                                         {&Choice::normal_force, &Rows::normal_force_N, true},
-                                                         {&Choice::speed, &Rows::speed_m_per_s, true},
-                                                         {&Choice::step, &Rows::step, false}}};
 
 /// Reads the chosen columns in one pass: 16 bytes a sample, 8 for each further column. Throws what TextLines throws.
 Rows read_rows(std::unique_ptr<TextSource> source, const Layout& layout, const Choice& choice,

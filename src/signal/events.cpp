@@ -43,6 +43,56 @@ void TurningPoints::add(std::size_t first, std::span<const double> values) {
 
 namespace {
 
+/// A turning point of a trace.
+struct Turn {
+  std::size_t at = 0;  ///< place in the trace
+  double value = 0.0;
+};
+
+/// A fall from one turning point to the next.
+struct SeenFall {
+  Turn peak;
+  Turn trough;
+
+  [[nodiscard]] double drop() const { return peak.value - trough.value; }
+};
+
+/// Returns the size of the change per place from one turning point to a later one.
+double rate(const Turn& from, const Turn& to) {
+  return std::abs(to.value - from.value) / static_cast<double>(std::max<std::size_t>(1, to.at - from.at));
+}
+
+/// Rate of the fall itself.
+double rate(const SeenFall& fall) {
+  return rate(fall.peak, fall.trough);
+}
+
+/// The falls of one trace at hystereses that grow: each pass goes over the turning points of the one before.
+class Falls {
+ public:
+  /// The falls that exceed noise of this standard deviation.
+  Falls(const Means& trace, double noise);
+
+  /// Highest less lowest value of the trace.
+  [[nodiscard]] double range() const { return range_; }
+  /// The hysteresis that they were found with: noise makes no turning point of 8 standard deviations; rounding errors
+  /// are no motion.
+  [[nodiscard]] double smallest() const { return smallest_; }
+
+  /// Increases the hysteresis; returns false if no turning point is too small, so that the falls are unchanged.
+  bool coarsen(double hysteresis);
+
+  /// Returns the falls larger than a hysteresis in their order; ringing is joined.
+  [[nodiscard]] std::vector<SeenFall> beyond(double hysteresis) const;
+
+ private:
+  [[nodiscard]] TurningPoints turning_points(double hysteresis) const;
+
+  double range_ = 0.0;
+  double smallest_ = 0.0;
+  std::vector<Turn> turns_;
+};
+
 /// The trace in pieces that stay in the cache: f(place of the first value, values).
 template <class F>
 void for_each_piece(const Means& trace, const F& f) {
@@ -88,8 +138,8 @@ double range_of(const Means& trace) {
   return extent.range();
 }
 
-/// Falls whose rise between is nearly as quick as they are belong together: the body or the load cell rings. Where the
-/// rises that are left are no slower than those, nothing rings: it is a wave. Then the falls as they were.
+/// Joins falls between which the force rises nearly as quickly as it falls: there the body or the load cell rings. If
+/// the other rises are no slower, nothing rings: it is a wave, and the falls are returned unchanged.
 std::vector<SeenFall> joined(std::vector<SeenFall> falls) {
   constexpr std::size_t kFewest = 3;
   std::vector<SeenFall> result;
@@ -110,12 +160,6 @@ std::vector<SeenFall> joined(std::vector<SeenFall> falls) {
   }
   const bool is_separable = median(std::move(sticks)) < thresholds::kRingApart * median(std::move(rings));
   return is_separable && result.size() >= kFewest ? result : falls;
-}
-
-}  // namespace
-
-double rate(const Turn& from, const Turn& to) {
-  return std::abs(to.value - from.value) / static_cast<double>(std::max<std::size_t>(1, to.at - from.at));
 }
 
 Falls::Falls(const Means& trace, double noise) {
@@ -153,8 +197,6 @@ std::vector<SeenFall> Falls::beyond(double hysteresis) const {
   for (const Fall& fall : turns.falls()) falls.push_back({turns_[fall.peak], turns_[fall.trough]});
   return joined(std::move(falls));
 }
-
-namespace {
 
 struct Detection {
   std::vector<SeenFall> falls;
@@ -350,7 +392,7 @@ std::size_t best_of(const std::vector<Scale>& scales) {
   return static_cast<std::size_t>(std::ranges::max_element(scales, {}, score) - scales.begin());
 }
 
-/// Returns true if sudden falls were seen to which these are noise, and which move the force more. Noise behind a
+/// Returns true if sudden falls were seen to which these are noise, and which move the force more. Noise after a
 /// filter is as smooth as slips, and it has more falls.
 bool are_noise(const Detection& falls, const std::vector<Scale>& scales) {
   const Seen these = seen_of(falls);
@@ -381,7 +423,6 @@ Events find_events(std::vector<double> force, double noise, std::optional<std::s
   events.width = scale.trace.width();
   events.noise = scale.noise;
   events.hysteresis = scale.best.hysteresis;
-  events.asymmetry = scale.best.asymmetry;
   events.minor = scale.best.minor;
   if (scale.trace.width() > 1) {
     events.trace = mean_a_sample(Means(force, means, scale.trace.width(), 1), force.size());

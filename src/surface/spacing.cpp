@@ -174,12 +174,12 @@ double top(const std::vector<double>& values, std::size_t i) {
   return static_cast<double>(i) + std::clamp(0.5 * (values[i - 1] - values[i + 1]) / bend, -0.5, 0.5);
 }
 
-}  // namespace
-
+/// Finds ridges in `heights` without form. Turning points count from 0.3 of the usual amplitude on; ridges cut by the
+/// ends of the profile are left out. `smoothed_over` and
+/// `waves_above` are the cut-offs of the Gaussian filters that take the roughness, and form and waviness.
 Ridges find_ridges(std::span<const double> heights, double smoothed_over, double waves_above) {
   Ridges ridges;
   ridges.smoothed_over = smoothed_over;
-  ridges.waves_above = waves_above;
   const Band band = band_of(heights, smoothed_over, waves_above);
   if (band.values.size() < 8) return ridges;
   signal::TurningPoints turning(thresholds::kRidgeSwing * usual_swing(band.values));
@@ -197,6 +197,8 @@ Ridges find_ridges(std::span<const double> heights, double smoothed_over, double
   }
   return ridges;
 }
+
+}  // namespace
 
 std::vector<double> distances(std::span<const double> places) {
   std::vector<double> result;
