@@ -362,15 +362,8 @@ std::optional<std::string> change_on_the_way(const Segmentation& segmentation) {
 
 namespace {
 
-/// Quality and slips of a part of what is read.
-struct Part {
-  Recording recording;
-  Quality quality;
-  Segmentation slips;
-};
-
 /// `scale`: of the slips, where it is known.
-Part part_of(const Recording& recording, SampleRange stretch, std::optional<std::size_t> scale = std::nullopt) {
+Excerpt excerpt_of(const Recording& recording, SampleRange stretch, std::optional<std::size_t> scale = std::nullopt) {
   Recording part = recording.part(stretch.begin, stretch.end);
   Quality quality = assess_quality(part);
   Segmentation slips = find_slips(part, quality, scale);
@@ -386,11 +379,11 @@ std::optional<std::size_t> scale_of_part(const Segmentation& slips, std::size_t 
   return slips.smoothed_over;
 }
 
-void take(Detected& detected, Part part, std::size_t begin) {
+void take(Detected& detected, Excerpt part, std::size_t begin) {
   detected.begin = begin;
   detected.part = std::move(part.recording);
   detected.signals.quality = std::move(part.quality);
-  detected.signals.segmentation = std::move(part.slips);
+  detected.signals.segmentation = std::move(part.segmentation);
 }
 
 /// Takes the stretch that slides: that of the slips where they are sudden, else the plateau of a steady run. A
@@ -401,13 +394,13 @@ void narrow(Detected& detected) {
   const SampleRange whole{0, recording.size()};
   const SampleRange sliding{slips.sliding_begin, slips.sliding_end};
   if (sliding != whole) {
-    Part part = part_of(recording, sliding, scale_of_part(slips, recording.size()));
-    if (slips_are_sudden(part.slips)) return take(detected, std::move(part), sliding.begin);
+    Excerpt part = excerpt_of(recording, sliding, scale_of_part(slips, recording.size()));
+    if (slips_are_sudden(part.segmentation)) return take(detected, std::move(part), sliding.begin);
   } else if (slips_are_sudden(slips)) {
     return;
   }
   const SampleRange plateau = signal::plateau(recording.force());
-  if (plateau != whole) take(detected, part_of(recording, plateau), plateau.begin);
+  if (plateau != whole) take(detected, excerpt_of(recording, plateau), plateau.begin);
 }
 
 }  // namespace

@@ -105,6 +105,13 @@ bool pace_changes(const Segmentation& segmentation);
 /// explains the change.
 std::optional<std::string> change_on_the_way(const Segmentation& segmentation);
 
+/// A part of a recording with its quality and slips.
+struct Excerpt {
+  Recording recording;
+  Quality quality;
+  Segmentation segmentation;
+};
+
 /// Properties of a recording that need no model: quality, slips and repetition frequency.
 struct Signals {
   Quality quality;

@@ -50,14 +50,7 @@ double misfit_of(const std::optional<FitResult>& fit) {
   return misfit_of(fit->diagnostics.relative_residual, fit->diagnostics.onset_force_spread);
 }
 
-/// A part of a recording with its quality and slips, as found in the whole.
-struct Excerpt {
-  Recording recording;
-  Quality quality;
-  Segmentation segmentation;
-};
-
-/// So many neighbouring slips from the middle of a recording that has two more.
+/// So many neighbouring slips, as found in the whole, from the middle of a recording that has two more.
 Excerpt excerpt_of(const Recording& recording, const Quality& quality, const Segmentation& segmentation,
                    std::size_t slips) {
   const std::vector<DetectedSlip>& all = segmentation.slips;

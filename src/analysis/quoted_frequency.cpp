@@ -95,10 +95,6 @@ double recovery_error(const FitResult& fit) {
   return std::sqrt(square / (count - 1.0) / (count + aside)) / mean;
 }
 
-Estimate with_relative_error(double value, double relative_error, double degrees_of_freedom) {
-  return symmetric(value, relative_error * value, degrees_of_freedom);
-}
-
 }  // namespace
 
 std::optional<Estimate> fitted_frequency(const FitResult& fit, const Recording& recording) {
@@ -110,13 +106,15 @@ std::optional<Estimate> fitted_frequency(const FitResult& fit, const Recording& 
   const double mean_s = (onsets.back().time_s - onsets.front().time_s) / onsets.back().index;
   const double timing = recording.sample_interval_s() / mean_s / std::sqrt(6.0) / count;
   if (!is_regular(fit.diagnostics, onsets, line.period_s)) {
-    return with_relative_error(1.0 / mean_s, std::hypot(recovery_error(fit), timing), count - 1.0);
+    const double frequency_Hz = 1.0 / mean_s;
+    return symmetric(frequency_Hz, std::hypot(recovery_error(fit), timing) * frequency_Hz, count - 1.0);
   }
   // Between two samples of a hardly sampled slip the errors of regular cycles are no chance: they repeat.
   if (fit.diagnostics.samples_per_slip < thresholds::kShapeSamples) return std::nullopt;
   // Jumps of a sensor at the contact are timed to a step, and the error of regular ones may repeat.
   const double step = recording.conditions().force_view == ForceView::Contact ? 0.5 * timing : 0.0;
-  return with_relative_error(1.0 / line.period_s, std::hypot(line.standard_error_s / line.period_s, step), count - 2.0);
+  const double frequency_Hz = 1.0 / line.period_s;
+  return symmetric(frequency_Hz, std::hypot(line.standard_error_s / line.period_s, step) * frequency_Hz, count - 2.0);
 }
 
 namespace {

@@ -7,6 +7,11 @@
 #include <iterator>
 #include <numbers>
 #include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "analysis/audit.hpp"
 #include "analysis/conclusions.hpp"
@@ -18,6 +23,20 @@ namespace slipfit {
 namespace {
 
 using Messages = std::vector<std::string>;
+
+/// A warning changes what a reader may conclude. A fact needs no action: a defect that was left out, or a term of the
+/// model whose uncertainty the intervals include.
+enum class RuleKind { Warning, Fact };
+
+/// One code of a warning.
+struct Rule {
+  std::string_view code;
+  RuleKind kind = RuleKind::Warning;
+  /// One message for each time that the condition holds. Null: the warning is made where its cause is found, by the
+  /// reader, the fit, the sweep or the comparison.
+  Messages (*messages)(const Facts&) = nullptr;
+  std::span<const ParameterId> limited = {};  ///< parameters that are at most conditional with this warning
+};
 
 Messages one(std::optional<std::string> message) {
   return message ? Messages{*std::move(message)} : Messages{};
@@ -232,10 +251,6 @@ std::size_t place_of(const Warning& warning) {
 }
 
 }  // namespace
-
-std::span<const Rule> rules() {
-  return kRules;
-}
 
 bool is_fact(const Warning& warning) {
   const std::size_t place = place_of(warning);

@@ -46,12 +46,12 @@ std::size_t index_of(Choice choice) {
 }  // namespace
 
 std::string escaped(const std::string& text) {
-  constexpr std::string_view kSpecial = "&<>\"";
-  constexpr std::array kEscapes{"&amp;", "&lt;", "&gt;", "&quot;"};
+  constexpr std::string_view kSpecial = "&<>\"'";
+  constexpr std::array kEscapes{"&amp;", "&lt;", "&gt;", "&quot;", "&#39;"};
   std::string result;
   for (const char c : text) {
     const std::size_t special = kSpecial.find(c);
-    result += special == std::string_view::npos ? std::string(1, c) : kEscapes.at(special);
+    special == std::string_view::npos ? result.push_back(c) : void(result += kEscapes.at(special));
   }
   return result;
 }

@@ -38,7 +38,7 @@ class Drawing {
   std::string svg_;
 };
 
-/// Text from outside must stay text.
+/// Text from outside must stay text, in HTML and XML: & < > " ' escaped.
 std::string escaped(const std::string& text);
 
 /// Letters of a UTF-8 text, for the room that it takes.

@@ -17,9 +17,12 @@ std::string csv_line(const std::vector<std::string>& cells) {
   return line;
 }
 
+bool is_formula(std::string_view text) {
+  return !text.empty() && std::string_view("=+-@").find(text.front()) != std::string_view::npos;
+}
+
 std::string spreadsheet_cell(std::string_view text) {
-  const bool is_formula = !text.empty() && std::string_view("=+-@").find(text.front()) != std::string_view::npos;
-  return (is_formula ? "'" : "") + printable(text);
+  return (is_formula(text) ? "'" : "") + printable(text);
 }
 
 }  // namespace slipfit

@@ -228,8 +228,7 @@ std::string to_csv(const ManifestDraft& draft, const fs::path& folder, const std
     std::error_code error;
     fs::path file = fs::proximate(entry.file, folder.empty() ? fs::path(".") : folder, error);
     if (error) file = entry.file;
-    const bool is_formula = std::string_view("=+-@").find(file.string().front()) != std::string_view::npos;
-    std::vector<std::string> cells{spreadsheet_cell(entry.id), (is_formula ? "./" : "") + file.string(),
+    std::vector<std::string> cells{spreadsheet_cell(entry.id), (is_formula(file.string()) ? "./" : "") + file.string(),
                                    number_cell(entry.speed_m_per_s), number_cell(entry.normal_force_N),
                                    spreadsheet_cell(entry.group)};
     if (has_sheets) cells.push_back(entry.sheet.value_or(""));

@@ -15,10 +15,6 @@
 
 namespace slipfit {
 
-std::string name_of(SurfaceStatus status) {
-  return std::string(kNames<SurfaceStatus>.at(static_cast<std::size_t>(status)));
-}
-
 std::string to_json(const Profile& profile, const Surface& surface) {
   Json json{{"schema", "slipfit.surface/1"}, {"version", SLIPFIT_VERSION}};
   json["profile"] = {
@@ -44,7 +40,7 @@ namespace {
 
 Block pattern_block(const Profile& profile, const Surface& surface) {
   Block block{"pattern", "Pattern"};
-  block.rows.push_back({"status", name_of(surface.status)});
+  block.rows.push_back({"status", std::string(name_of(surface.status))});
   if (surface.ridges > 0) block.rows.push_back({"ridges", std::to_string(surface.ridges)});
   block.add("ridge height", surface.ridge_height, profile.height_in_metres ? "m" : "");
   for (const auto& quantity : kPattern) {

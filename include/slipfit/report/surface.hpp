@@ -15,7 +15,4 @@ std::string to_text(const Profile& profile, const Surface& surface);
 /// Writes one page with the profile and its ridges. Text from outside is escaped.
 std::string to_html(const Profile& profile, const Surface& surface, const std::string& command_line);
 
-/// Returns "periodic", "irregular", "none" or "undetermined".
-std::string name_of(SurfaceStatus status);
-
 }  // namespace slipfit

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "analysis/rules.hpp"
+#include "chart/svg.hpp"
 #include "report/blocks.hpp"
 #include "report/html/assets.hpp"
 #include "report/names.hpp"
@@ -19,8 +20,6 @@ namespace {
 
 using Replacement = std::pair<std::string_view, std::string_view>;
 
-constexpr std::array<Replacement, 5> kMarkup{
-    {{"&", "&amp;"}, {"<", "&lt;"}, {">", "&gt;"}, {"\"", "&quot;"}, {"'", "&#39;"}}};
 constexpr std::array<Replacement, 5> kScript{
     {{"<", "\\u003c"}, {">", "\\u003e"}, {"&", "\\u0026"}, {"\xE2\x80\xA8", "\\u2028"}, {"\xE2\x80\xA9", "\\u2029"}}};
 
@@ -62,7 +61,7 @@ std::string class_of(const std::string& heading) {
 }  // namespace
 
 std::string text(std::string_view content) {
-  return replaced(printable(content), kMarkup);
+  return chart::escaped(printable(content));
 }
 
 std::string formula_text(std::string_view content) {
