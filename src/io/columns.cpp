@@ -11,6 +11,7 @@
 #include "core/unit_text.hpp"
 #include "core/word_list.hpp"
 #include "io/message.hpp"
+#include "io/read_options.hpp"
 #include "slipfit/core/units.hpp"
 
 namespace slipfit::reading {

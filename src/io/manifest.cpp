@@ -20,6 +20,7 @@
 #include "core/word_list.hpp"
 #include "io/cells.hpp"
 #include "io/message.hpp"
+#include "io/read_options.hpp"
 #include "io/text_lines.hpp"
 #include "io/text_source.hpp"
 #include "slipfit/core/units.hpp"
@@ -34,14 +35,16 @@ struct ManifestField {
   enum class Need { Nothing, Column, Value };  ///< of a manifest
   using SetNumber = void(ManifestEntry&, double);
   using SetText = void(ManifestEntry&, const std::string&);
+  using CellOf = std::optional<std::string>(const ReadOptions&);
 
   RecordingOption said;
-  std::string_view suffix{};             ///< behind the column's name: its SI unit
+  std::string_view suffix{};             ///< after the column's name: its SI unit
   std::optional<Dimension> dimension{};  ///< empty: text
   Bound bound = Bound::None;
   SetNumber* set_number = nullptr;  ///< nothing and `dimension`: a window
   SetText* set_text = nullptr;
   Need need = Need::Nothing;
+  CellOf* cell_of = nullptr;  ///< the cell of an option of reading, in SI; empty if it is not stated
 
   [[nodiscard]] std::string full_name() const { return std::string(said.column) + std::string(suffix); }
 };
@@ -73,7 +76,7 @@ ThrownError refusal(const char* code, const std::string& cell, const char* expec
   return ThrownError({code, fmt::format("bad value '{}', expected {}", printable_utf8(cell), expected)});
 }
 
-// What a cell of text sets. Throws where it cannot be that.
+// Setters for cells of text. They throw if a cell is not valid.
 
 ManifestEntry& owner_of(auto ManifestEntry::* /*member*/, ManifestEntry& entry) {
   return entry;
@@ -161,9 +164,30 @@ void set_step(ManifestEntry& entry, const std::string& cell) {
   entry.options.step = static_cast<std::size_t>(step);
 }
 
+/// Parses "A:B" with 1 <= A < B.
+std::optional<RowRange> parse_row_range(std::string_view text) {
+  RowRange rows;
+  const char* const end = text.data() + text.size();
+  const auto [colon, first_error] = std::from_chars(text.data(), end, rows.first);
+  if (first_error != std::errc() || colon == end || *colon != ':') return std::nullopt;
+  const auto [stop, last_error] = std::from_chars(colon + 1, end, rows.last);
+  const bool is_range = last_error == std::errc() && stop == end && rows.first >= 1 && rows.first < rows.last;
+  return is_range ? std::optional(rows) : std::nullopt;
+}
+
 void set_rows(ManifestEntry& entry, const std::string& cell) {
   entry.options.rows = parse_row_range(cell);
   if (!entry.options.rows) throw refusal("bad_rows", cell, "A:B with 1 <= A < B, rows counted from 1");
+}
+
+/// Parses "COLUMN=VALUE"; the name of a column may contain an equals sign, the value may not.
+std::optional<ColumnValue> parse_column_value(std::string_view text) {
+  const std::size_t equals = text.rfind('=');
+  if (equals == std::string_view::npos) return std::nullopt;
+  const std::string_view column = trim(text.substr(0, equals));
+  const std::string_view value = trim(text.substr(equals + 1));
+  if (column.empty() || value.empty()) return std::nullopt;
+  return ColumnValue{std::string(column), std::string(value)};
 }
 
 void set_where(ManifestEntry& entry, const std::string& cell) {
@@ -175,6 +199,13 @@ void set_where(ManifestEntry& entry, const std::string& cell) {
 void set_pieces(ManifestEntry& entry, const std::string& cell, Pieces pieces) {
   if (entry.options.pieces != Pieces::One) throw refusal("conflicting_pieces", cell, "either strokes or segments");
   entry.options.pieces = pieces;
+}
+
+/// Parses "both" or an empty text, "positive", "negative".
+std::optional<Pieces> parse_strokes(std::string_view text) {
+  if (text.empty() || text == "both") return Pieces::Strokes;
+  if (text == "positive") return Pieces::PositiveStrokes;
+  return text == "negative" ? std::optional(Pieces::NegativeStrokes) : std::nullopt;
 }
 
 void set_strokes(ManifestEntry& entry, const std::string& cell) {
@@ -197,15 +228,53 @@ using Bound = ManifestField::Bound;
 using Need = ManifestField::Need;
 using Of = RecordingOption::Of;
 
+// Cells that state options of reading.
+
+std::string text_of(const RowRange& rows) {
+  return fmt::format("{}:{}", rows.first, rows.last);
+}
+std::string text_of(const ColumnValue& where) {
+  return where.column + "=" + where.value;
+}
+std::string text_of(const TimeWindow& window) {
+  return fmt::format("{}:{}", window.begin_s, window.end_s);
+}
+template <class Value>
+std::string text_of(const Value& value) {
+  return fmt::format("{}", value);
+}
+
+template <auto member>
+std::optional<std::string> cell_of(const ReadOptions& options) {
+  const auto& stated = options.*member;
+  return stated ? std::optional(text_of(*stated)) : std::nullopt;
+}
+
+std::optional<std::string> strokes_cell(const ReadOptions& options) {
+  for (const char* const strokes : {"both", "positive", "negative"}) {
+    if (parse_strokes(strokes) == options.pieces) return strokes;
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> segments_cell(const ReadOptions& options) {
+  return options.pieces == Pieces::Segments ? std::optional<std::string>("yes") : std::nullopt;
+}
+
 constexpr std::string_view kColumnHelp = "Name or 1-based number";
 
 constexpr ManifestField text_field(RecordingOption said, ManifestField::SetText* set_text, Need need = Need::Nothing) {
   return {.said = said, .set_text = set_text, .need = need};
 }
+constexpr ManifestField text_field(RecordingOption said, ManifestField::SetText* set_text,
+                                   ManifestField::CellOf* cell) {
+  return {.said = said, .set_text = set_text, .cell_of = cell};
+}
 
 constexpr ManifestField number_field(RecordingOption said, std::string_view suffix, Dimension dimension, Bound bound,
-                                     ManifestField::SetNumber* set_number, Need need = Need::Nothing) {
-  return {said, suffix, dimension, bound, set_number, nullptr, need};
+                                     ManifestField::SetNumber* set_number, Need need = Need::Nothing,
+                                     ManifestField::CellOf* cell = nullptr) {
+  return {said, suffix, dimension, bound, set_number, nullptr, need, cell};
 }
 
 // In the order of the help.
@@ -265,49 +334,54 @@ constexpr std::array kFields = std::to_array<ManifestField>({
                  set_number_of<&Conditions::measured_spacing_se_m>),
     number_field({"measured_spacing"}, "_m", Dimension::Length, Bound::AboveZero,
                  set_number_of<&Conditions::measured_spacing_m>),
-    text_field({"time_column", "--time-column", kColumnHelp, Of::Reading}, set_text_of<&ReadOptions::time_column>),
-    text_field({"force_column", "--force-column", kColumnHelp, Of::Reading}, set_text_of<&ReadOptions::force_column>),
+    text_field({"time_column", "--time-column", kColumnHelp, Of::Reading}, set_text_of<&ReadOptions::time_column>,
+               cell_of<&ReadOptions::time_column>),
+    text_field({"force_column", "--force-column", kColumnHelp, Of::Reading}, set_text_of<&ReadOptions::force_column>,
+               cell_of<&ReadOptions::force_column>),
     text_field({"normal_force_column", "--normal-force-column", kColumnHelp, Of::Reading},
-               set_text_of<&ReadOptions::normal_force_column>),
+               set_text_of<&ReadOptions::normal_force_column>, cell_of<&ReadOptions::normal_force_column>),
     text_field(
         {"speed_column", "--speed-column", "Name or 1-based number; a column in rpm needs --radius", Of::Reading},
-        set_text_of<&ReadOptions::speed_column>),
+        set_text_of<&ReadOptions::speed_column>, cell_of<&ReadOptions::speed_column>),
     number_field(
         {"radius", "--radius",
          "Distance of the contact from the axis of rotation: 12mm; for a torque or a rotational speed", Of::Reading},
-        "_m", Dimension::Length, Bound::AboveZero, set_number_of<&ReadOptions::radius_m>),
+        "_m", Dimension::Length, Bound::AboveZero, set_number_of<&ReadOptions::radius_m>, Need::Nothing,
+        cell_of<&ReadOptions::radius_m>),
     text_field({"time_unit", "--time-unit", "Unit of the time column: ms, min", Of::Reading},
-               set_unit<Dimension::Time, &ReadOptions::time_unit>),
+               set_unit<Dimension::Time, &ReadOptions::time_unit>, cell_of<&ReadOptions::time_unit>),
     text_field({"force_unit", "--force-unit",
                 "Unit of the force column: mN, kgf; 1 for a coefficient, 'N m' for a torque", Of::Reading},
-               set_unit<Dimension::Force, &ReadOptions::force_unit>),
+               set_unit<Dimension::Force, &ReadOptions::force_unit>, cell_of<&ReadOptions::force_unit>),
     text_field({"force_scale", "--force-scale", "Force per unit of the force column: '5 N/V'", Of::Reading},
-               set_force_scale),
+               set_force_scale, cell_of<&ReadOptions::force_scale>),
     number_field(
         {"sample_rate", "--sample-rate", "Sampling rate (Hz) of a recording without a time column", Of::Reading}, "_Hz",
-        Dimension::Frequency, Bound::AboveZero, set_number_of<&ReadOptions::sample_rate_Hz>),
+        Dimension::Frequency, Bound::AboveZero, set_number_of<&ReadOptions::sample_rate_Hz>, Need::Nothing,
+        cell_of<&ReadOptions::sample_rate_Hz>),
     text_field(
         {"sheet", "--sheet", "Sheet of a workbook or file in a zip archive: name or 1-based number", Of::Reading},
-        set_text_of<&ReadOptions::sheet>),
+        set_text_of<&ReadOptions::sheet>, cell_of<&ReadOptions::sheet>),
     text_field({"variable", "--variable",
                 "Variable of a .mat file, dataset or group of an HDF5 file, group of a TDMS file", Of::Reading},
-               set_text_of<&ReadOptions::variable>),
-    text_field({"step", "--step", "Step of a file with several steps (slipfit info lists them)", Of::Reading},
-               set_step),
-    text_field({"rows", "--rows", "A:B, range of rows of numbers, counted from 1", Of::Reading}, set_rows),
+               set_text_of<&ReadOptions::variable>, cell_of<&ReadOptions::variable>),
+    text_field({"step", "--step", "Step of a file with several steps (slipfit info lists them)", Of::Reading}, set_step,
+               cell_of<&ReadOptions::step>),
+    text_field({"rows", "--rows", "A:B, range of rows of numbers, counted from 1", Of::Reading}, set_rows,
+               cell_of<&ReadOptions::rows>),
     text_field(
         {"where", "--where", "COLUMN=VALUE: only rows with this value in this column (name or number)", Of::Reading},
-        set_where),
+        set_where, cell_of<&ReadOptions::where>),
     number_field({"window", "--window", "T0:T1, part of the recording, in seconds of its own clock", Of::Reading}, "_s",
-                 Dimension::Time, Bound::None, nullptr),
+                 Dimension::Time, Bound::None, nullptr, Need::Nothing, cell_of<&ReadOptions::window>),
     text_field(
         {"strokes", "--strokes{both}",
          "Reciprocating test: each stroke becomes a recording; --strokes=positive or =negative selects one direction",
          Of::Pieces},
-        set_strokes),
+        set_strokes, strokes_cell),
     text_field({"segments", "--segments{yes}",
                 "Each section of constant speed becomes a recording: a sweep in one file", Of::Pieces},
-               set_segments),
+               set_segments, segments_cell),
 });
 
 /// Returns an error's text for the user of a manifest: it names columns of the manifest, not options of the command
@@ -340,7 +414,7 @@ struct UnitText {
   bool in_brackets = false;
 };
 
-std::optional<UnitText> unit_behind(std::string_view name, std::string_view base) {
+std::optional<UnitText> unit_after(std::string_view name, std::string_view base) {
   const auto same = [](char a, char b) { return a == std::tolower(static_cast<unsigned char>(b)); };
   if (name.size() < base.size() || !std::equal(base.begin(), base.end(), name.begin(), same)) return std::nullopt;
   const std::string_view rest = trim(name.substr(base.size()));
@@ -354,7 +428,7 @@ std::optional<UnitText> unit_behind(std::string_view name, std::string_view base
 /// Nothing where the name is unknown. Error: unknown_unit, in brackets only ("speed_old" is some other column).
 std::optional<ManifestColumn> recognise(const std::string& name, std::size_t index, const std::string& place) {
   for (const ManifestField& field : kFields) {
-    const auto text = unit_behind(name, field.said.column);
+    const auto text = unit_after(name, field.said.column);
     if (!text) continue;
     if (text->unit.empty()) return ManifestColumn{&field, index, printable_utf8(name), std::nullopt, {}};
     if (!field.dimension) continue;
@@ -685,3 +759,16 @@ Result<ManifestEntry> entry_from_cells(std::vector<NamedCell> cells) {
 }
 
 }  // namespace slipfit
+
+namespace slipfit::reading {
+
+std::vector<std::pair<std::string, std::string>> stated_cells(const ReadOptions& options) {
+  std::vector<std::pair<std::string, std::string>> cells;
+  for (const ManifestField& field : kFields) {
+    if (field.cell_of == nullptr) continue;
+    if (auto cell = field.cell_of(options)) cells.emplace_back(field.full_name(), *std::move(cell));
+  }
+  return cells;
+}
+
+}  // namespace slipfit::reading

@@ -10,6 +10,7 @@
 #include "core/thrown_error.hpp"
 #include "io/columns.hpp"
 #include "io/message.hpp"
+#include "io/read_options.hpp"
 #include "io/steps.hpp"
 
 namespace slipfit::reading {

@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "io/read_options.hpp"
 #include "temp_file.hpp"
 
 using namespace io_test;
@@ -113,8 +114,8 @@ TEST_CASE("a scale turns volts into newtons, whatever prefix the column has") {
   CHECK(read_ok("time [s],force\n0,0.1\n1,0.2\n2,0.1\n", options).force()[1] == Approx(1.0));
   options.force_column = "2";
   CHECK(contains(read_error("time [s],gap [mm]\n0,1\n1,2\n2,1\n", options).message, "--force-scale '5 N/V'"));
-  CHECK_FALSE(slipfit::parse_force_scale("5 N"));
-  CHECK_FALSE(slipfit::parse_force_scale("5 V/N"));
+  CHECK_FALSE(slipfit::reading::parse_force_scale("5 N"));
+  CHECK_FALSE(slipfit::reading::parse_force_scale("5 V/N"));
 }
 
 TEST_CASE("points between thousands belong to a number where the comma is the decimal sign") {

@@ -3,9 +3,6 @@
 #include <cstddef>
 #include <optional>
 #include <string>
-#include <string_view>
-#include <utility>
-#include <vector>
 
 namespace slipfit {
 
@@ -52,25 +49,5 @@ struct ReadOptions {
   std::optional<TimeWindow> window;
   Pieces pieces = Pieces::One;  ///< `read_pieces` takes them apart
 };
-
-/// Returns the stated options as columns of a manifest and their cells; numbers are in SI.
-std::vector<std::pair<std::string, std::string>> stated_cells(const ReadOptions& options);
-
-/// Parses "A:B" with 1 <= A < B.
-std::optional<RowRange> parse_row_range(std::string_view text);
-
-/// Parses "both" or an empty text, "positive", "negative".
-std::optional<Pieces> parse_strokes(std::string_view text);
-
-/// The meaning of "5 N/V": newtons for one SI unit of the column's quantity, or for one of the unit itself if the unit
-/// is unknown ("0.02 N/raw").
-struct ForceScale {
-  double N_per_SI = 1.0;
-  std::string unit;  ///< "V"
-};
-std::optional<ForceScale> parse_force_scale(std::string_view text);
-
-/// Parses "COLUMN=VALUE"; the name of a column may contain an equals sign, the value may not.
-std::optional<ColumnValue> parse_column_value(std::string_view text);
 
 }  // namespace slipfit
