@@ -1,7 +1,7 @@
 // slipfit-hdf5 mat|hdf5 FILE [VARIABLE]: numbers of a .mat or HDF5 file as CSV on standard output, for slipfit. A
 // program of its own: these libraries take some fifty others with them, and a damaged file that ends them ends nothing
 // else. The first line is "=NAME" of what was read, or "!CODE MESSAGE" of what is wrong. slipfit-hdf5 mat-all|hdf5-all
-// FILE: the names of all tables, parted by tabs, in such a line, then each table behind a line "=BYTES" or "!CODE
+// FILE: the names of all tables, parted by tabs, in such a line, then each table after a line "=BYTES" or "!CODE
 // MESSAGE".
 
 #include <cstdio>
@@ -55,7 +55,7 @@ bool write_measured_table(const ArrayFile& file, const std::string& name) {
   }
 }
 
-/// Tables whose names contain tabs or line ends are left out: no choice of a user could be that.
+/// Leaves out tables whose names contain tabs or line ends: a user cannot choose them.
 bool write_all_tables(const ArrayFile& file) {
   std::vector<std::string> names = file.tables();
   std::erase_if(names, [](const std::string& name) { return name.find_first_of("\t\n") != std::string::npos; });

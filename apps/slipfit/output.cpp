@@ -35,7 +35,8 @@ int write_all(File file, const std::string& content) {
   return std::fclose(file.release()) == 0 ? 0 : errno;
 }
 
-/// A new file, with the mode of `target` from the start: nobody else reads a moment of what the old one keeps private.
+/// Creates the file with the mode of `target` from the start: at no time can others read what the old one keeps
+/// private.
 File open_like(const fs::path& temporary, const fs::path& target) {
   struct stat status {};
   const bool exists = ::stat(target.c_str(), &status) == 0;

@@ -71,7 +71,7 @@ void write_standard_output(const std::string& content);
 /// A message to standard error, "slipfit: ...", on one line.
 void say(const std::string& message);
 
-/// A command as a shell takes it: `slipfit` and the words behind the first, quoted where they must be.
+/// A command as a shell takes it: `slipfit` and the words after the first, quoted where they must be.
 std::string shell_line(const std::vector<std::string>& words);
 /// The command that drafts a manifest of files and folders.
 std::string manifest_command(const std::vector<std::string>& paths);

@@ -93,17 +93,17 @@ bool is_unit(const std::string& text) {
                      [&text](slipfit::Dimension dimension) { return bool(slipfit::parse_unit(text, dimension)); });
 }
 
-/// "--speed 10 mm/s" without quotes arrives as three words: a number behind an option and a unit, which no file is
+/// "--speed 10 mm/s" without quotes arrives as three words: a number after an option, and a unit, which no file is
 /// called, are one.
 std::vector<std::string> with_quantities_joined(const std::vector<std::string>& words) {
   std::vector<std::string> joined;
   for (const std::string& word : words) {
-    const bool is_behind_number = joined.size() >= 2 && joined[joined.size() - 2].starts_with("--") &&
-                                  joined[joined.size() - 2].find('=') == std::string::npos &&
-                                  slipfit::parse_quantity(joined.back(), slipfit::Dimension::Dimensionless) &&
-                                  slipfit::unit_in(joined.back()).empty();
+    const bool is_after_number = joined.size() >= 2 && joined[joined.size() - 2].starts_with("--") &&
+                                 joined[joined.size() - 2].find('=') == std::string::npos &&
+                                 slipfit::parse_quantity(joined.back(), slipfit::Dimension::Dimensionless) &&
+                                 slipfit::unit_in(joined.back()).empty();
     std::error_code error;
-    if (is_behind_number && is_unit(word) && !std::filesystem::exists(word, error)) {
+    if (is_after_number && is_unit(word) && !std::filesystem::exists(word, error)) {
       joined.back() += " " + word;
     } else {
       joined.push_back(word);

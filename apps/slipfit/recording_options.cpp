@@ -10,7 +10,7 @@ namespace {
 
 const CLI::Validator kNotEmpty([](const std::string& text) { return text.empty() ? "a value is missing" : ""; }, "");
 
-/// Splits what --speed is given as, such as 10mm/s,20mm/s, at commas behind a unit: others are those of decimals.
+/// Splits what --speed is given as, such as 10mm/s,20mm/s, at commas after a unit: others are those of decimals.
 std::vector<std::string> speeds_in(const std::vector<std::string>& said) {
   std::vector<std::string> speeds;
   for (const std::string& text : said) {

@@ -82,7 +82,7 @@ SweepRole role_of(const Recording& recording, const Analysis& analysis) {
   return analysis.motion == MotionClass::SteadySliding ? SweepRole::Steady : SweepRole::LeftOut;
 }
 
-/// Samples of the fall that a slip shows behind the average that the fit found.
+/// Returns the number of samples in the fall of a slip, with those of the averaging time that the fit found.
 double samples_per_fall(const Recording& recording, const FitResult& fit) {
   const double average_s = fit.estimate_of(ParameterId::SensorAverage).value.value_or(0.0);
   return fit.diagnostics.samples_per_slip + average_s / recording.sample_interval_s();

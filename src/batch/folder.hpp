@@ -52,7 +52,7 @@ struct LoggedResult {
   std::string line;
 };
 
-/// Calls `use` with what the log holds, in the manifest's order, each group behind the last of its recordings. Errors:
+/// Calls `use` with what the log holds, in the manifest's order, each group after the last of its recordings. Errors:
 /// also those of ManifestReader, not_readable.
 void for_each_result(const std::filesystem::path& manifest, const WorkList& list, const ResultLog& log,
                      const std::function<void(const LoggedResult&)>& use);

@@ -28,9 +28,9 @@ bool is_request(std::string_view text) {
 /// Returns the first request after a punctuation mark, or an empty text.
 std::string_view request_in(std::string_view message) {
   for (std::size_t i = 2; i < message.size(); ++i) {
-    const bool is_behind_mark =
+    const bool is_after_mark =
         message[i - 1] == ' ' && std::string_view(";:,?").find(message[i - 2]) != std::string_view::npos;
-    if (is_behind_mark && is_request(message.substr(i))) return message.substr(i);
+    if (is_after_mark && is_request(message.substr(i))) return message.substr(i);
   }
   return {};
 }

@@ -222,7 +222,7 @@ inline constexpr double kRoundingSteps = 3.0;
 /// Rise of a run-up over the usual drop of a slip. [1; convention: a stick rises by about one drop]
 inline constexpr double kRunUp = 1.5;
 
-/// Largest share of a recording without slips behind its first peak that has fallen back to a quarter of the rise: the
+/// Largest share of a recording without slips after its first peak that has fallen back to a quarter of the rise: the
 /// release at its end. [1; convention]
 inline constexpr double kReleased = 0.2;
 

@@ -54,7 +54,7 @@ enum class SuddenChanges { None, Falls, Rises };
 /// whichever sixteenth of the trace is left out.
 SuddenChanges sudden_changes(std::span<const double> force) {
   constexpr double kSkewness = 0.3;           // -0.3 for cycles near the limit of stick-slip, 0 for waves and noise
-  constexpr std::size_t kLeastChanges = 512;  // in the trace, one behind the other: that of noise is below 0.2
+  constexpr std::size_t kLeastChanges = 512;  // in the trace, one after the other: that of noise is below 0.2
   for (std::size_t width = 1; width * kLeastChanges <= force.size(); width *= 2) {
     const std::array<Moments, kParts> parts = moments_of_changes(force, width);
     Moments all;

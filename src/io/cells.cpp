@@ -124,7 +124,7 @@ std::optional<double> take_half_day_s(std::string_view& text) {
   return std::nullopt;
 }
 
-/// h:m:s with decimals behind a point or a comma, on 24 or on 12 hours ("1:05:00 PM"); anything else gives no number.
+/// h:m:s with decimals after a point or a comma, on 24 or on 12 hours ("1:05:00 PM"); anything else gives no number.
 Parsed parse_time_of_day(std::string_view text) {
   const std::size_t length = text.size();
   const auto half_day_s = take_half_day_s(text);
@@ -145,7 +145,7 @@ Parsed parse_time_of_day(std::string_view text) {
   return {seconds, length};
 }
 
-/// A time of day, behind a date or alone.
+/// A time of day, after a date or alone.
 Parsed parse_clock(std::string_view text) {
   const auto date = read_date(text);
   if (!date) return parse_time_of_day(text);
@@ -153,7 +153,7 @@ Parsed parse_clock(std::string_view text) {
   return clock.length == 0 ? Parsed{} : Parsed{date->midnight_s + clock.value, text.size()};
 }
 
-/// A tag begins with a letter or a unit sign, behind the blanks: neither a second number nor the rest of a date.
+/// A tag begins with a letter or a unit sign, after the blanks: neither a second number nor the rest of a date.
 bool is_tag(std::string_view text) {
   const auto first = static_cast<unsigned char>(text[0]);
   return std::isalpha(first) != 0 || first >= 0x80 || first == '%' || first == '[' || first == '(';

@@ -86,7 +86,7 @@ inline Decimal read_decimal(const char* p, const char* end, char point) {
 struct Dialect {
   char delimiter = ',';  ///< ',', ';', tab, ' ' for any run of blanks, NUL for one cell a line
   bool decimal_comma = false;
-  bool comma_in_clock = false;  ///< "10:00:00,005,4.2" has two cells: a comma behind h:m:s begins its decimals
+  bool comma_in_clock = false;  ///< "10:00:00,005,4.2" has two cells: a comma after h:m:s begins its decimals
 };
 
 enum class CellKind {
@@ -118,8 +118,8 @@ void split(std::string_view line, const Dialect& dialect, std::vector<std::strin
 /// Returns true if the comma at `comma`, in a line that starts at `begin`, is between h:m:s and a digit.
 bool is_comma_in_clock(const char* begin, const char* comma, const char* line_end);
 
-/// The end of the cell that begins at `cell` (for blanks: that begins there with no blank), at the latest that of the
-/// line: `line_end`, or the NUL where that is null.
+/// Returns the end of the cell that begins at `cell` (where blanks part the cells, not at a blank), at most the end of
+/// the line: `line_end`, or the NUL if that is null.
 inline const char* end_of_cell(const char* cell, const char* line_end, const Dialect& dialect) {
   const char delimiter = dialect.delimiter;
   const char* const begin = cell;

@@ -38,7 +38,7 @@ struct Score {
   std::size_t columns = 0;
 };
 
-/// "005": behind a clock these are its decimals, and no column.
+/// "005": after a clock these are its decimals, and no column.
 bool has_zero_in_front(std::string_view cell) {
   cell = unquote(cell);
   return cell.size() > 1 && cell[0] == '0' && is_digit(cell[1]);

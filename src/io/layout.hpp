@@ -24,7 +24,7 @@ struct Column {
   bool is_whole = false;         ///< whole numbers only
   double first = 0.0;
   double median_step = 0.0;
-  std::string tag;             ///< what most numbers carry behind them
+  std::string tag;             ///< text that follows most numbers
   std::vector<double> values;  ///< of every row looked at; NaN where it holds no number
 
   [[nodiscard]] bool is_numeric() const { return numbers + clocks > 0 && numbers + clocks >= texts; }

@@ -21,8 +21,9 @@ struct Part {
   void assume(std::string sentence) { provenance.assumed.push_back(std::move(sentence)); }
 };
 
-/// The step that was asked for, or the main one of several that are no one recording; of that the window; of that the
-/// samples whose time does not run backwards. The rows are no longer in the file. Error: unknown_step.
+/// Moves the rows of one recording out of the file: the step that was asked for, or the main step if the steps do not
+/// form one recording; within it, the window; within that, the samples whose time does not run backwards. Error:
+/// unknown_step.
 Part take_part(OpenedFile& file);
 
 /// The stretches of one speed each, in every step of the file.

@@ -212,8 +212,8 @@ std::vector<Step> find_steps(const Rows& rows) {
 bool are_one_recording(const Rows& rows, std::span<const Step> steps) {
   for (std::size_t i = 1; i < steps.size(); ++i) {
     const std::size_t before = steps[i].begin - std::min(steps[i].begin, kFewestRows);
-    const std::size_t behind = std::min(steps[i].begin + kFewestRows, steps[i].end) - 1;
-    if (rows.time_s[behind] < rows.time_s[before]) return false;
+    const std::size_t after = std::min(steps[i].begin + kFewestRows, steps[i].end) - 1;
+    if (rows.time_s[after] < rows.time_s[before]) return false;
   }
   return is_level_kept(rows.speed_m_per_s, steps, kSpeedStep) && is_level_kept(rows.normal_force_N, steps, kLoadStep);
 }

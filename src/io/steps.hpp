@@ -11,7 +11,7 @@
 
 namespace slipfit::reading {
 
-/// The level that a measured speed or load holds while it is on.
+/// The level of a measured speed or load, without the readings before the start and after the stop.
 struct Level {
   double value = 0.0;               ///< median
   double standard_deviation = 0.0;  ///< robust, of single readings

@@ -13,7 +13,7 @@
 namespace slipfit::reading {
 
 /// The bytes of a text file as the readers of lines take them: UTF-8 or Latin-1 (UTF-16 is converted), no byte order
-/// mark, lines that end in LF or CRLF (a lone CR becomes LF), no NUL, and a line end behind the last line. (The line
+/// mark, lines that end in LF or CRLF (a lone CR becomes LF), no NUL, and a line end after the last line. (The line
 /// reader of fast-cpp-csv-parser cuts lines at NUL, and without a final line end it reads one byte past the data.)
 /// `read` throws std::system_error when the disk fails, and so do ParsedLines and TextLines.
 class TextSource {

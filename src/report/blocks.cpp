@@ -302,7 +302,7 @@ std::string text_of(const Block& block) {
 
 namespace {
 
-/// Each note once, behind the names of the parameters that it is about.
+/// Each note once, after the names of the parameters that it is about.
 std::string notes_text(const std::vector<Parameter>& parameters) {
   std::string text;
   for (auto first = parameters.begin(); first != parameters.end(); ++first) {

@@ -71,7 +71,7 @@ std::size_t shown_width(std::string_view text);
 inline constexpr std::size_t kLineWidth = 100;
 
 /// The text in lines of at most kLineWidth characters, the first after `first`, the others after as many blanks. No
-/// line ends between a number and the word behind it.
+/// line ends between a number and the word after it.
 std::vector<std::string> wrapped(const std::string& first, const std::string& text);
 std::string wrapped_text(const std::string& first, const std::string& text);
 

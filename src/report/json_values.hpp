@@ -25,7 +25,7 @@ namespace slipfit {
 
 using Json = nlohmann::ordered_json;  // keys in the order of writing: same input, same bytes
 
-// What nlohmann::json makes of our types. A number that is not finite is null, as it makes it itself.
+// JSON conversions of the result types. A number that is not finite is null, as nlohmann::json makes it itself.
 
 /// The name of the choice.
 template <Named Choice>

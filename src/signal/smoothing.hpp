@@ -43,9 +43,9 @@ class RunningMeans {
   double origin_ = 0.0;
 };
 
-/// Means over `width` samples, every `stride` samples: what a trace shows at one time scale. Worked out where they are
-/// looked at: a long trace at many scales would fill the memory, and writing it takes longer than the means. A width of
-/// 1 is the values as they are, which sums would round. The values and their running means must outlive it.
+/// Means over `width` samples, every `stride` samples: what a trace shows at one time scale. Computed on access: a long
+/// trace at many scales would fill the memory, and writing it takes longer than the means. A width of 1 is the values
+/// as they are, which sums would round. The values and their running means must outlive it.
 class Means {
  public:
   Means(std::span<const double> values, const RunningMeans& sums, std::size_t width, std::size_t stride);

@@ -137,9 +137,9 @@ SampleRange sliding_stretch(const std::vector<double>& force, const std::vector<
   if (!released) stretch.end = end_of(force, falls, run, band, 1.2 * longest);
   const double usual = train.usual().interval;
   const SampleRange before{0, stretch.begin};
-  const SampleRange behind{stretch.end, force.size()};
+  const SampleRange after{stretch.end, force.size()};
   if (static_cast<double>(before.size()) < usual && within(before.of(force), band)) stretch.begin = 0;
-  if (static_cast<double>(behind.size()) < usual && within(behind.of(force), band)) {
+  if (static_cast<double>(after.size()) < usual && within(after.of(force), band)) {
     stretch.end = force.size();
   }
   return stretch;

@@ -8,7 +8,8 @@
 #include "slipfit/surface/surface.hpp"
 #include "surface/areal.hpp"
 
-// What each kind of file takes to become a profile. Errors are thrown (ThrownError): read_profile returns them.
+// Converters to a profile or a map, one for each kind of file. Errors are thrown (ThrownError): read_profile returns
+// them.
 
 namespace slipfit::surface {
 

@@ -28,7 +28,7 @@ struct SdfHeader {
   double type = -1.0;
 };
 
-/// Little-endian at a place that is known to be inside.
+/// Reads a little-endian number; the caller has checked that `place` is inside.
 template <class Number>
 Number number_at(std::string_view bytes, std::size_t place) {
   Number number{};

@@ -118,7 +118,7 @@ constexpr std::uint32_t kStruct = 2;
 constexpr std::uint32_t kFirstOfNumbers = 6;
 constexpr std::uint32_t kLastOfNumbers = 15;
 
-/// An array as the file describes it, and its parts behind that.
+/// An array as the file describes it, and the parts that follow it.
 struct MatArray {
   std::uint32_t kind = 0;  ///< class
   bool is_complex = false;

@@ -14,7 +14,7 @@ namespace slipfit::reading {
 /// Thrown for files that are truncated or state a wrong size.
 struct Damaged {};
 
-/// Reads bytes and numbers of either byte order from front to end; throws Damaged behind it.
+/// Reads bytes and numbers of either byte order from front to end. Throws Damaged past the end.
 class Cursor {
  public:
   Cursor(std::string_view bytes, std::endian order) : rest_(bytes), order_(order) {}

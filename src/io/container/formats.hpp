@@ -28,8 +28,8 @@ class ByteStream {
   virtual ~ByteStream() = default;
   ByteStream(const ByteStream&) = delete;
   ByteStream& operator=(const ByteStream&) = delete;
-  /// Fewer than `size` at the end only. Throws std::system_error where the disk fails, ThrownError
-  /// where a container turns out to be damaged, or far larger than a recording.
+  /// Returns fewer than `size` bytes only at the end. Throws std::system_error if the disk fails, ThrownError if a
+  /// container turns out to be damaged, or far larger than a recording.
   virtual std::size_t read(char* buffer, std::size_t size) = 0;
 };
 
@@ -69,8 +69,8 @@ Container open_container(TextStream file, const std::string& name, const ReadOpt
 /// table of another kind of file.
 TextStream table_in(const Container& container, const std::string& name, const ReadOptions& options);
 
-// What each kind of container takes to become text. Without the library that a kind needs the error is not_built_in and
-// names Debian's package.
+// Converters to text, one for each kind of container. Without the library that a kind needs the error is not_built_in
+// and names Debian's package.
 
 /// A function that opens a container. `packed` contains the bytes of the whole file, which are read once; messages show
 /// `name`.
@@ -114,7 +114,7 @@ struct Helper {
 inline constexpr const char* kFileOfHelper = platform::kFileOfDescriptor3;
 
 struct HelperOutput {
-  std::string first;  ///< line, behind its "="
+  std::string first;  ///< line, after its "="
   std::unique_ptr<ByteStream> bytes;
 };
 

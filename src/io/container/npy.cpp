@@ -43,7 +43,7 @@ struct NpyHeader {
   std::size_t row_bytes = 0;
   std::size_t rows = 0;
   std::size_t row_step = 0;  ///< bytes from a row to the next of the same column
-  std::string_view numbers;  ///< all bytes behind the line
+  std::string_view numbers;  ///< all bytes after the line
 };
 
 ThrownError no_table(const std::string& name, const std::string& what) {

@@ -69,7 +69,7 @@ constexpr std::array kFormats = std::to_array<Format>({
     {"TDSm"sv, 0, open_tdms, "a TDMS file", &ReadOptions::variable},
     {"\x89HDF\r\n\x1a\n"sv, 0, open_hdf5, "an HDF5 file", &ReadOptions::variable},
     {"MATLAB 5.0 MAT-file"sv, 0, open_mat, "a MATLAB file", &ReadOptions::variable},
-    {"\x89HDF\r\n\x1a\n"sv, 512, open_hdf5, "a MATLAB file", &ReadOptions::variable},  // behind the user's own block
+    {"\x89HDF\r\n\x1a\n"sv, 512, open_hdf5, "a MATLAB file", &ReadOptions::variable},  // after the user's own block
     {"\x93NUMPY"sv, 0, open_npy, "an array of NumPy"},
     {"\xD0\xCF\x11\xE0\xA1\xB1\x1A\xE1"sv, 0, open_old_workbook, {}},
     {{}, 0, [](TextStream text, const std::string&) { return one_table(std::move(text)); }, "plain text"},

@@ -233,7 +233,7 @@ std::pair<std::string, std::string> names_in(const std::string& path) {
   return {parts[0], parts[1]};
 }
 
-/// The channels of one group, behind a clock that its first channel states; a channel of time stamps becomes seconds
+/// The channels of one group, after a clock that its first channel states; a channel of time stamps becomes seconds
 /// from its first.
 NumberTable table_of(const std::vector<TdmsChannel>& channels, const std::string& group) {
   NumberTable table;

@@ -66,7 +66,7 @@ SampleRange middle_cycles(const Source& source) {
   return samples_between(source.recording, cycles[first]->trough_s, cycles[first + count]->trough_s);
 }
 
-/// Grey behind what slides, where that is not all.
+/// Draws the part that slides on grey, unless it is all.
 void mark_sliding(Panel& panel, const Source& source) {
   const TimeSpan& sliding = source.analysis.sliding;
   if (!(sliding.end_s - sliding.begin_s < source.recording.duration_s()) || !(sliding.end_s > sliding.begin_s)) return;

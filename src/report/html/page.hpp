@@ -34,8 +34,8 @@ struct Cell {
   std::string attributes;  ///< each with a leading blank
 };
 
-/// A table in a box that scrolls where it is too wide; the first cell of a row names it. `headings`: of the columns, as
-/// text; one that begins with '#' is above numbers, with '~' over what stays on one line.
+/// A table in a box that scrolls where it is too wide; the first cell of a row names it. `headings` are those of the
+/// columns, as text: '#' in front marks a column of numbers, '~' one whose cells stay on one line.
 std::string table(std::string_view attributes, const std::vector<std::string>& headings,
                   const std::vector<std::vector<Cell>>& rows);
 
