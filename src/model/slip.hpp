@@ -157,16 +157,6 @@ T slip_extreme(const T& z0, const T& zeta, int half_turns) {
   return exp(start_h - zeta / b * (angle - start_angle));
 }
 
-/// End of slip with derivatives: one Newton step in T from the solution in double (implicit function theorem). Where
-/// the slip does not stick again, the same for the minimum of the sliding speed (z'' = 0).
-template <class T>
-T slip_end(const Slip& slip, const T& z0, const T& zeta) {
-  const SlipPoint<T> at = slip_point(z0, zeta, T(slip.tau_end));
-  if (slip.resticks) return T(slip.tau_end) - (at.dz - 1.0) / at.ddz;
-  const T dddz = -2.0 * zeta * at.ddz - at.dz;
-  return T(slip.tau_end) - at.ddz / dddz;
-}
-
 /// One slip and the stick after it in the units above, where slips repeat; peak and trough of z.
 template <class T>
 struct ScaledCycle {

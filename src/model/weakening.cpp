@@ -171,17 +171,6 @@ WeakeningPoint WeakeningSlip::at(double tau) const {
   return {{now.z.a, now.z.v[0], now.z.v[1], now.dz.a}, now.z.v[2]};
 }
 
-WeakeningPoint WeakeningSlip::mean_at(double tau, double average) const {
-  const double half = 0.5 * average;
-  if (tau + half <= 0.0 || tau - half > tau_end_) return at(tau);  // the mean of a straight line is its middle
-  const State first = shown_at(tau - half);
-  const State last = shown_at(tau + half);
-  const Jet mean = (last.integral - first.integral) / average;
-  const double by_tau = (last.z.a - first.z.a) / average;
-  const double by_log_average = 0.5 * (first.z.a + last.z.a) - mean.a;
-  return {{mean.a, mean.v[0], mean.v[1], by_tau, by_log_average, by_log_average}, mean.v[2]};
-}
-
 WeakeningPoint WeakeningSlip::integral_to(double tau) const {
   const State now = shown_at(tau);
   return {{now.integral.a, now.integral.v[0], now.integral.v[1], now.z.a}, now.integral.v[2]};

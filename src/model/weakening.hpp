@@ -92,23 +92,21 @@ struct LinearForce {
   PartJet by_time{0.0};
 };
 
-/// Begin and length of a part of a slip, in tau.
+/// Start and length of a part of a slip, in tau.
 struct PartTimes {
   double begin = 0.0;
   double length = 0.0;
 };
 
-/// Returns the power series of the motion from the spring force z and its slope at the begin of the part on. Where it
+/// Returns the power series of the motion from the spring force z and its slope at the start of the part on. Where it
 /// is transmitted, the drag is added. docs/model.md sections 4 and 9
 SlipPart linear_part(const PartTimes& times, const PartJet& z, const PartJet& slope, const LinearForce& force,
                      const PartJet& zeta, bool is_transmitted);
 
-/// exp(-zeta tau) cos b tau and exp(-zeta tau) sin b tau at even steps: one complex multiplication a sample, to be
-/// started afresh at every slip and every kFresh samples, so that rounding adds up over fewer than kFresh steps.
+/// exp(-zeta tau) cos b tau and exp(-zeta tau) sin b tau at even steps: one complex multiplication a sample. It is to
+/// be started afresh at every slip, because rounding adds up over the steps.
 class Phasor {
  public:
-  static constexpr std::size_t kFresh = 256;
-
   Phasor(double zeta, double b, double step_tau)
       : zeta_(zeta),
         b_(b),
@@ -156,8 +154,6 @@ class WeakeningSlip {
 
   /// The force in this view at any tau.
   [[nodiscard]] WeakeningPoint at(double tau) const;
-  /// Returns the mean of the force over a time around tau, which is `average` long at this w_n.
-  [[nodiscard]] WeakeningPoint mean_at(double tau, double average) const;
   /// The integral of what `at` gives, and of its derivatives, from the onset to any time; `d_tau` is the force itself.
   [[nodiscard]] WeakeningPoint integral_to(double tau) const;
   /// The parts of the slip, of what `at` gives; the numbers of the law are the distance and none.
@@ -192,11 +188,13 @@ class WeakeningSlip {
   Jet before_, after_;  ///< in the view, of the sticks on either side of the slip, continued to tau = 0
 };
 
-/// WeakeningSlip::at and mean_at, to rounding, at times in ascending order and at even steps, of which some may be left
-/// out: the motion is that of a linear equation, which the same few numbers take from each time to the next.
+/// WeakeningSlip::at, or its mean over a time around tau, to rounding, at times in ascending order and at even steps,
+/// of which some may be left out: the motion is that of a linear equation, which the same few numbers take from each
+/// time to the next.
 class WeakeningTrack {
  public:
-  /// `step_tau`: above 0. `average`: of mean_at; 0: an instant. The slip must outlive it.
+  /// `step_tau`: above 0. `average`: the time at this w_n that the mean is over; 0: an instant. The slip must outlive
+  /// it.
   WeakeningTrack(const WeakeningSlip& slip, double step_tau, double average = 0.0)
       : slip_(slip), average_(average), first_(slip, step_tau, average > 0.0), last_(first_) {}
 

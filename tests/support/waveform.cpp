@@ -13,6 +13,8 @@ namespace {
 
 using model::Phasor;
 
+constexpr std::size_t kFresh = 256;  // steps after which a phasor is started afresh: rounding adds up over them
+
 struct Periodic {
   model::Slip slip;
   double w_n = 0.0;
@@ -52,8 +54,8 @@ void for_each_stretch(const Periodic& p, const SampleTimes& times, const Slips& 
     };
     const auto tau_at = [&](std::size_t i) { return begin + static_cast<double>(i) * step - onset; };
     const auto slip_last = static_cast<std::size_t>(samples_before(p.slip.tau_end));
-    for (; first < slip_last; first = std::min(slip_last, first + Phasor::kFresh)) {
-      slips(first, std::min(slip_last, first + Phasor::kFresh), tau_at(first), cycle);
+    for (; first < slip_last; first = std::min(slip_last, first + kFresh)) {
+      slips(first, std::min(slip_last, first + kFresh), tau_at(first), cycle);
     }
     const auto stick_last = static_cast<std::size_t>(samples_before(p.tau_period));
     if (first < stick_last) sticks(first, stick_last, tau_at(first), cycle);

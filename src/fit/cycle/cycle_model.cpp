@@ -390,7 +390,7 @@ void CycleModel::fill(const Law& law, const CycleFrame& frame, const std::option
   const bool is_lag = scales_.free_time == FreeTime::Lag;
   const auto ingredients = [&](double tau, const Point& p) {
     // What depends on w_n at fixed tau are the times of the sensor: what is not the average's is the lag's.
-    const double by_log_time = is_lag ? law.by_log_sensor(p) - p.d_log_average : p.d_log_average;
+    const double by_log_time = is_lag ? p.d_log_omega - p.d_log_average : p.d_log_average;
     return Ingredients{p.z, p.d_tau, p.d_z0, p.d_tau * tau + law.by_log_omega(p), by_log_time, law.by_law(p)};
   };
   typename Law::Samples samples(law, frame.omega_rad_per_s * even_step_s_);

@@ -141,14 +141,6 @@ struct CycleState : CycleFrame {
     const double tau = tau_at(time_s);
     return force_scale * std::visit([tau](const auto& law) { return double{law.at(tau).z}; }, motion);
   }
-  /// Returns the same force for the stick before the slip, continued to the onset; `stick_after` does so for the stick
-  /// after it.
-  [[nodiscard]] double stick_before() const {
-    return force_scale * std::visit([](const auto& law) { return law.shown_before(); }, motion);
-  }
-  [[nodiscard]] double stick_after() const {
-    return force_scale * std::visit([](const auto& law) { return law.shown_after(); }, motion);
-  }
 };
 
 /// The rise after slips around one slip.

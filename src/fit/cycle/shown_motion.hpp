@@ -98,4 +98,15 @@ class ShownMotion {
   std::optional<FilterResponse> filter_;
 };
 
+/// A cycle at samples in ascending order, by a law that gains nothing from their order.
+template <class Cycle>
+class SamplesOneByOne {
+ public:
+  SamplesOneByOne(const Cycle& cycle, double /*step_tau*/) : cycle_(cycle) {}
+  [[nodiscard]] ShownPoint at(double tau) const { return cycle_.at(tau); }
+
+ private:
+  const Cycle& cycle_;
+};
+
 }  // namespace slipfit::fit

@@ -102,10 +102,6 @@ class CoulombCycle {
   [[nodiscard]] bool resticks() const { return wave.slip.resticks; }
   /// Spring force above the level at tau = 0 of the stick after the slip.
   [[nodiscard]] double intercept() const { return wave.after.intercept; }
-  /// Returns the force of the stick before the slip as the sensor shows it, continued to tau = 0; `shown_after` returns
-  /// that of the stick after it.
-  [[nodiscard]] double shown_before() const { return before_slip(0.0).z; }
-  [[nodiscard]] double shown_after() const { return after_slip(0.0).z; }
 
   /// Force above the level in units of k V / w_n, at any tau = w_n (t - onset).
   [[nodiscard]] Point at(double tau) const {
@@ -124,10 +120,8 @@ class CoulombCycle {
 
   /// Derivatives of the force with respect to the law's coordinates, of the point's.
   [[nodiscard]] static std::array<double, 1> by_law(const Point& point) { return {point.d_zeta}; }
-  /// Returns the derivative of the force with respect to ln w_n at fixed tau; `by_log_sensor` returns the part of it
-  /// that comes from the times of the sensor.
+  /// Returns the derivative of the force with respect to ln w_n at fixed tau.
   [[nodiscard]] static double by_log_omega(const Point& point) { return point.d_log_omega; }
-  [[nodiscard]] static double by_log_sensor(const Point& point) { return point.d_log_omega; }
 
   /// The cycle at samples in ascending order. At even steps (`step_tau`; 0: uneven), of which some may be left out, a
   /// slip's cosine and sine turn by the same angle from sample to sample.

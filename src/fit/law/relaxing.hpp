@@ -59,10 +59,6 @@ class RelaxingCycle {
   [[nodiscard]] bool resticks() const { return motion().slip().resticks(); }
   /// Spring force above the level at tau = 0 of the stick after the slip.
   [[nodiscard]] double intercept() const { return motion().slip().intercept(); }
-  /// Returns the force of the stick before the slip as the sensor shows it, continued to tau = 0; `shown_after` returns
-  /// that of the stick after it.
-  [[nodiscard]] double shown_before() const { return motion().at(0.0).z - shown_.lag_tau(); }
-  [[nodiscard]] double shown_after() const { return intercept() - shown_.lag_tau(); }
 
   /// Force above the level in units of k V / w_n, at any tau = w_n (t - onset).
   [[nodiscard]] Point at(double tau) const { return shown_.at(tau); }
@@ -71,20 +67,10 @@ class RelaxingCycle {
   [[nodiscard]] std::array<double, 3> by_law(const Point& point) const {
     return {point.d_zeta, point.d_law[0], time_ * point.d_law[1]};
   }
-  /// Returns the part of `by_log_omega` that comes from the times of the sensor. `by_log_omega` returns the derivative
-  /// of the force with respect to ln w_n at fixed tau.
-  [[nodiscard]] static double by_log_sensor(const Point& point) { return point.d_log_omega; }
+  /// Returns the derivative of the force with respect to ln w_n at fixed tau.
   [[nodiscard]] double by_log_omega(const Point& point) const { return point.d_log_omega + time_ * point.d_law[1]; }
 
-  /// The cycle at samples in ascending order.
-  class Samples {
-   public:
-    Samples(const RelaxingCycle& cycle, double /*step_tau*/) : cycle_(cycle) {}
-    Point at(double tau) { return cycle_.at(tau); }
-
-   private:
-    const RelaxingCycle& cycle_;
-  };
+  using Samples = SamplesOneByOne<RelaxingCycle>;
 
  private:
   RelaxingCycle(model::RelaxingSlip slip, double time, const Sensor& sensor)

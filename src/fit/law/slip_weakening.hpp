@@ -24,6 +24,7 @@ class WeakeningMotion {
   [[nodiscard]] MotionPoint integral_to(double tau) const { return point_of(slip_.integral_to(tau)); }
   [[nodiscard]] double tau_end() const { return slip_.tau_end(); }
   [[nodiscard]] std::vector<model::SlipPart> parts() const { return slip_.parts(); }
+  [[nodiscard]] const model::WeakeningSlip& slip() const { return slip_; }
 
  private:
   static MotionPoint point_of(const model::WeakeningPoint& p) {
@@ -37,7 +38,7 @@ class WeakeningMotion {
 /// closed form.
 class WeakeningCycle {
  public:
-  using Point = model::WeakeningPoint;
+  using Point = ShownPoint;
   static constexpr bool kStraightSticks = true;
 
   /// Solves the cycle. It is empty where D_c is far above (F_s - F_k) / k, from which on friction that weakens makes no
@@ -54,53 +55,42 @@ class WeakeningCycle {
     if (!(lambda > 0.0) || !(std::abs(zeta) < 1.0) || !std::isfinite(z0) || !(root * root < kLongest)) {
       return std::nullopt;
     }
-    WeakeningCycle cycle({z0, zeta, distance, scales.view});
+    WeakeningCycle cycle({z0, zeta, distance, scales.view}, sensor.in_tau(omega_rad_per_s));
     cycle.distance_ = distance;
     cycle.by_root_ = 2.0 * unit * root;
-    const Sensor in_tau = sensor.in_tau(omega_rad_per_s);
-    cycle.average_ = in_tau.average_tau;
-    if (in_tau.lag_tau > 0.0) cycle.lagged_.emplace(WeakeningMotion(cycle.slip_), in_tau);
     return cycle;
   }
 
-  [[nodiscard]] double tau_end() const { return slip_.tau_end(); }
-  [[nodiscard]] bool resticks() const { return slip_.resticks(); }
+  [[nodiscard]] double tau_end() const { return slip().tau_end(); }
+  [[nodiscard]] bool resticks() const { return slip().resticks(); }
   /// Spring force above the level at tau = 0 of the stick after the slip.
-  [[nodiscard]] double intercept() const { return slip_.intercept(); }
-  /// Returns the force of the stick before the slip as the sensor shows it, continued to tau = 0; `shown_after` returns
-  /// that of the stick after it.
-  [[nodiscard]] double shown_before() const { return slip_.at(0.0).z - lag_tau(); }
-  [[nodiscard]] double shown_after() const { return slip_.at(2.0 * tau_end()).z - 2.0 * tau_end() - lag_tau(); }
+  [[nodiscard]] double intercept() const { return slip().intercept(); }
 
   /// Force above the level in units of k V / w_n, at any tau = w_n (t - onset).
-  [[nodiscard]] Point at(double tau) const {
-    if (lagged_) {
-      const ShownPoint p = lagged_->at(tau);
-      return {{p.z, p.d_z0, p.d_zeta, p.d_tau, p.d_log_omega, p.d_log_average}, p.d_law[0]};
-    }
-    return average_ > 0.0 ? slip_.mean_at(tau, average_) : slip_.at(tau);
-  }
+  [[nodiscard]] Point at(double tau) const { return shown_.at(tau); }
   [[nodiscard]] Point before_slip(double tau) const { return at(tau); }
   [[nodiscard]] Point after_slip(double tau) const { return at(tau); }
 
   /// Derivatives of the force with respect to the law's coordinates, of the point's.
   [[nodiscard]] std::array<double, 2> by_law(const Point& point) const {
-    return {point.d_zeta, by_root_ * point.d_distance};
+    return {point.d_zeta, by_root_ * point.d_law[0]};
   }
-  /// Returns the part of `by_log_omega` that comes from the times of the sensor. `by_log_omega` returns the derivative
-  /// of the force with respect to ln w_n at fixed tau.
-  [[nodiscard]] static double by_log_sensor(const Point& point) { return point.d_log_omega; }
-  [[nodiscard]] double by_log_omega(const Point& point) const {
-    return point.d_log_omega + distance_ * point.d_distance;
-  }
+  /// Returns the derivative of the force with respect to ln w_n at fixed tau.
+  [[nodiscard]] double by_log_omega(const Point& point) const { return point.d_log_omega + distance_ * point.d_law[0]; }
 
   /// The cycle at samples in ascending order; `step_tau` 0: not at even steps.
   class Samples {
    public:
     Samples(const WeakeningCycle& cycle, double step_tau) : cycle_(cycle) {
-      if (step_tau > 0.0 && !cycle.lagged_) track_.emplace(cycle.slip_, step_tau, cycle.average_);
+      if (step_tau > 0.0 && !(cycle.sensor_.lag_tau > 0.0)) {
+        track_.emplace(cycle.slip(), step_tau, cycle.sensor_.average_tau);
+      }
     }
-    Point at(double tau) { return track_ ? track_->at(tau) : cycle_.at(tau); }
+    Point at(double tau) {
+      if (!track_) return cycle_.at(tau);
+      const model::WeakeningPoint p = track_->at(tau);
+      return {{p.z, p.d_tau, p.d_z0, p.d_zeta, {p.d_distance, 0.0}}, p.d_log_omega, p.d_log_average};
+    }
 
    private:
     const WeakeningCycle& cycle_;
@@ -108,15 +98,15 @@ class WeakeningCycle {
   };
 
  private:
-  explicit WeakeningCycle(model::WeakeningSlip slip) : slip_(std::move(slip)) {}
+  WeakeningCycle(model::WeakeningSlip slip, const Sensor& sensor)
+      : shown_(WeakeningMotion(std::move(slip)), sensor), sensor_(sensor) {}
 
-  [[nodiscard]] double lag_tau() const { return lagged_ ? lagged_->lag_tau() : 0.0; }
+  [[nodiscard]] const model::WeakeningSlip& slip() const { return shown_.motion().slip(); }
 
-  model::WeakeningSlip slip_;
-  std::optional<ShownMotion<WeakeningMotion>> lagged_;  ///< where the sensor lags
-  double distance_ = 0.0;                               ///< D_c w_n / V
-  double by_root_ = 0.0;                                ///< d distance_ / d kSlipDistance
-  double average_ = 0.0;                                ///< of the sensor, w_n W
+  ShownMotion<WeakeningMotion> shown_;
+  Sensor sensor_;
+  double distance_ = 0.0;  ///< D_c w_n / V
+  double by_root_ = 0.0;   ///< d distance_ / d kSlipDistance
 };
 
 }  // namespace slipfit::fit

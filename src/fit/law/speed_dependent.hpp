@@ -89,20 +89,10 @@ class SpeedDependentCycle {
   [[nodiscard]] std::array<double, 3> by_law(const Point& point) const {
     return {point.d_zeta, by_slope_ * point.d_law[0], rate_unit_ * point.d_law[1] + by_rate_ * point.d_law[0]};
   }
-  /// Returns the derivative of the force with respect to ln w_n at fixed tau; `by_log_sensor` returns the part of it
-  /// that comes from the times of the sensor.
+  /// Returns the derivative of the force with respect to ln w_n at fixed tau.
   [[nodiscard]] static double by_log_omega(const Point& point) { return point.d_log_omega; }
-  [[nodiscard]] static double by_log_sensor(const Point& point) { return point.d_log_omega; }
 
-  /// The cycle at samples in ascending order.
-  class Samples {
-   public:
-    Samples(const SpeedDependentCycle& cycle, double /*step_tau*/) : cycle_(cycle) {}
-    [[nodiscard]] Point at(double tau) const { return cycle_.at(tau); }
-
-   private:
-    const SpeedDependentCycle& cycle_;
-  };
+  using Samples = SamplesOneByOne<SpeedDependentCycle>;
 
  private:
   explicit SpeedDependentCycle(ShownMotion<SpeedDependentMotion> shown) : shown_(std::move(shown)) {}

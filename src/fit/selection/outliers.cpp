@@ -58,14 +58,14 @@ class ResidualsOfCycles {
     const std::size_t slip_end = std::clamp(index_at(state.onset_s + state.slip_s() + reach_s), slip_begin, end);
     const double rate = state.force_scale * state.omega_rad_per_s;
     const auto slip = [&state](double t_s) { return state.force_at(t_s); };
-    const auto stick = [&state, rate](double above) {
-      return [&state, rate, above](double t_s) { return above + rate * (t_s - state.onset_s); };
+    const auto stick = [&state, rate](double at_s) {
+      return [at_s, rate, force = state.force_at(at_s)](double t_s) { return force + rate * (t_s - at_s); };
     };
-    fill(cycle, begin, slip_begin, CyclePart::Stick, stick(state.stick_before()));
+    fill(cycle, begin, slip_begin, CyclePart::Stick, stick(fit_.data(cycle).window_begin_s));
     fill(cycle, slip_begin, slip_end, CyclePart::Slip, slip);
     fit_.scales().sensor_lag_s > 0.0  // the sensor still shows the slip
         ? fill(cycle, slip_end, end, CyclePart::Stick, slip)
-        : fill(cycle, slip_end, end, CyclePart::Stick, stick(state.stick_after()));
+        : fill(cycle, slip_end, end, CyclePart::Stick, stick(fit_.data(cycle).window_end_s));
   }
 
   template <class Force>
