@@ -1,10 +1,10 @@
 #include "fit/contact_fit.hpp"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <array>
-#include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
-#include <cstdint>
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <utility>
@@ -13,16 +13,41 @@
 #include "core/statistics.hpp"
 #include "fit/cycle/cycle_data.hpp"
 #include "fit/report/parameters.hpp"
+#include "model/root_between.hpp"
 #include "model/slip.hpp"
 
 namespace slipfit::fit {
 
 namespace {
 
+/// One cycle as a sensor at the contact sees it: a ramp up to F_s, a fall to F_k within a step of the clock, a plateau
+/// while the body slips, a fall to the spring force (plus c V) within a step. Forces in the unit of the column.
+struct ContactCycle {
+  std::size_t slip = 0;     ///< index into the segmentation
+  std::size_t onset = 0;    ///< last sample of the ramp before the slip
+  std::size_t end = 0;      ///< last sample of the plateau
+  double onset_s = 0.0;     ///< middle of the step in which the slip starts
+  double end_s = 0.0;       ///< middle of the step in which it ends
+  double plateau = 0.0;     ///< mean force of the slip: F_k
+  double onset_jump = 0.0;  ///< ramp at the onset less the plateau: F_s - F_k
+  double end_jump = 0.0;    ///< plateau less the ramp at the end
+};
+
+struct ContactCycles {
+  std::vector<ContactCycle> cycles;
+  std::size_t without_edges = 0;  ///< slips without two clear falls; the first and the last may be cut off
+  double slope = 0.0;             ///< of the ramps, level's own slope taken off: k V
+  double slope_error = 0.0;
+  double drift = 0.0;  ///< the level's own slope; 0 where within its error
+  double noise = 0.0;  ///< rms of ramps and plateaus about their lines
+  double step_s = 0.0;
+};
+
 /// The smaller of the two falls of a slip, over the whole swing: below it noise might be taken for an edge.
 constexpr double kSmallestFall = 0.1;
 constexpr double kHidingSteps = 1.5;  // a longer step leaves the time of the edge unknown
 
+/// Finds the cycles of the contact; the result is empty below 3 cycles with both edges.
 class Finder {
  public:
   Finder(const Recording& recording, const Segmentation& segmentation)
@@ -160,13 +185,18 @@ class Finder {
   double ramp_slope_ = 0.0;      // of the ramps as measured, drift included
 };
 
-}  // namespace
+/// Holds the four means over the cycles with their errors: ln(k V), onset jump, end jump, slip time.
+struct ContactMoments {
+  Eigen::Vector4d mean = Eigen::Vector4d::Zero();
+  Eigen::Matrix4d covariance = Eigen::Matrix4d::Zero();
+  double jump_sd = 0.0;  ///< spread of the onset jump over cycles
+};
 
-std::optional<ContactCycles> find_contact_cycles(const Recording& recording, const Segmentation& segmentation) {
-  return Finder(recording, segmentation).find();
-}
-
-namespace {
+/// (ln k V, ln w_n, zeta, ln (F_s - F_k)) and their covariance; zeta may come out slightly negative.
+struct ContactSolution {
+  Eigen::Vector4d value = Eigen::Vector4d::Zero();
+  Eigen::Matrix4d covariance = Eigen::Matrix4d::Zero();
+};
 
 enum Moment : Eigen::Index { kLogSlope, kOnsetJump, kEndJump, kSlipTime };
 
@@ -182,15 +212,11 @@ Eigen::Vector2d equations(const Eigen::Vector4d& moments, double log_omega, doub
           u * (slip.end.z + 2.0 * zeta) / moments(kEndJump) + 1.0};  // in stick the sensor sees k u + c V
 }
 
+/// The root of a function that changes its sign between `low` and `high`; empty where it does not.
 template <class F>
 std::optional<double> root(const F& f, double low, double high) {
-  const double at_low = f(low);
-  const double at_high = f(high);
-  if (!(at_low * at_high <= 0.0)) return std::nullopt;
-  std::uintmax_t steps = 100;
-  const auto bracket = boost::math::tools::toms748_solve(f, low, high, at_low, at_high,
-                                                         boost::math::tools::eps_tolerance<double>(48), steps);
-  return 0.5 * (bracket.first + bracket.second);
+  if (!(f(low) * f(high) <= 0.0)) return std::nullopt;
+  return model::root_between(f, low, high);
 }
 
 /// ln w_n from the slip time alone: tau_end lies between pi and a damped turn, and falls as w_n grows.
@@ -222,8 +248,6 @@ double phase_gap(const ContactCycles& found, double ContactCycle::*edge) {
   return gap;
 }
 
-}  // namespace
-
 ContactMoments moments_of(const ContactCycles& found) {
   ContactMoments moments;
   const auto count = static_cast<double>(found.cycles.size());
@@ -252,6 +276,7 @@ ContactMoments moments_of(const ContactCycles& found) {
   return moments;
 }
 
+/// Solves slip time and end jump of the model for w_n and zeta. Empty where no zeta in (-0.1, 0.6) does.
 std::optional<ContactSolution> solve_moments(const ContactMoments& moments) {
   const Eigen::Vector4d& m = moments.mean;
   if (!(m(kOnsetJump) > 0.0) || !(m(kEndJump) > 0.0) || !(m(kSlipTime) > 0.0) || !m.allFinite()) return std::nullopt;
@@ -285,8 +310,6 @@ std::optional<ContactSolution> solve_moments(const ContactMoments& moments) {
   if (!solution.covariance.allFinite()) return std::nullopt;
   return solution;
 }
-
-namespace {
 
 double samples_per_slip(const ContactCycles& found, const ContactMoments& moments) {
   return moments.mean(3) / found.step_s;
@@ -396,7 +419,7 @@ std::vector<CurvePoint> contact_curve(const Recording& recording, const ContactC
 
 std::optional<FitResult> fit_contact(const Recording& recording, const Segmentation& segmentation,
                                      const FitOptions& options) {
-  const std::optional<ContactCycles> found = find_contact_cycles(recording, segmentation);
+  const std::optional<ContactCycles> found = Finder(recording, segmentation).find();
   if (!found || !(found->slope > 0.0)) return std::nullopt;
   const ContactMoments moments = moments_of(*found);
   const std::optional<ContactSolution> solution = solve_moments(moments);

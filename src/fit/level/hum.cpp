@@ -21,6 +21,21 @@ namespace slipfit::fit {
 
 namespace {
 
+/// Samples [begin, end) of neighbouring cycles.
+struct CycleRun {
+  std::size_t begin = 0;
+  std::size_t end = 0;
+  [[nodiscard]] double size() const { return static_cast<double>(end - begin); }
+};
+
+/// Residuals at equal steps of time; 0 where there is none.
+struct EvenRest {
+  std::vector<double> own;  ///< of an uneven clock only
+  std::span<const double> values;
+  std::vector<CycleRun> runs;
+  double step_s = 0.0;
+};
+
 /// Neighbours are those between which fewer cycles than a run's are missing.
 std::vector<CycleRun> runs_of(const Recording& recording, const BlockFit& fit) {
   const auto time_s = recording.time_s();
@@ -102,7 +117,35 @@ double even_step_s(const Recording& recording) {
   return std::max(usual_s, recording.duration_s() / (2.0 * size));  // gaps must not fill the memory
 }
 
-}  // namespace
+/// Holds what a fit leaves of the samples of its cycles. Residuals of 0 count as absent samples.
+class Rest {
+ public:
+  /// `residuals`: one a sample of the recording, which must outlive this.
+  Rest(const Recording& recording, const BlockFit& fit, std::vector<double> residuals);
+
+  [[nodiscard]] const std::vector<double>& values() const { return values_; }
+  [[nodiscard]] const std::vector<CycleRun>& runs() const { return runs_; }
+  /// 1 / duration.
+  [[nodiscard]] double resolution_Hz() const { return 1.0 / recording_.duration_s(); }
+
+  /// Amplitude^2 of the sine of this frequency that fits best by least squares, at the true times of the samples.
+  [[nodiscard]] double power_at(double frequency_Hz) const;
+  /// The frequency of the largest power within half a resolution.
+  [[nodiscard]] double refined(double frequency_Hz) const;
+
+  /// Returns the residuals for the Fourier transform. On an uneven clock each sample is moved to the nearest step of an
+  /// even one, by half a step at most: exact enough to find a line, not to fit it. The values of an even clock are not
+  /// copied.
+  [[nodiscard]] EvenRest on_even_clock() const;
+
+  /// Adds the fitted interference back.
+  void add_interference(const BlockFit& fit);
+
+ private:
+  const Recording& recording_;
+  std::vector<double> values_;
+  std::vector<CycleRun> runs_;
+};
 
 Rest::Rest(const Recording& recording, const BlockFit& fit, std::vector<double> residuals)
     : recording_(recording), values_(std::move(residuals)), runs_(runs_of(recording, fit)) {}
@@ -161,8 +204,6 @@ EvenRest Rest::on_even_clock() const {
 void Rest::add_interference(const BlockFit& fit) {
   for (const CycleRun& run : runs_) add_hum(recording_, fit, run.begin, run.end, 1.0, values_);
 }
-
-namespace {
 
 /// Returns the frequencies of the lines that the fit has, as the rest shows them with its hum added back.
 std::vector<double> refine_all(const BlockFit& fit, Rest rest) {
@@ -409,12 +450,6 @@ std::vector<FittedLine> fitted_lines(const BlockFit& fit) {
 }
 
 }  // namespace
-
-double hum_amplitude(const BlockFit& fit) {
-  double amplitude = 0.0;
-  for (const FittedLine& line : fitted_lines(fit)) amplitude = std::hypot(amplitude, line.force);
-  return amplitude;
-}
 
 double slope_by_lines(const BlockFit& fit, double length_s) {
   double slope = 0.0;

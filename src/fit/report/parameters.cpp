@@ -26,15 +26,40 @@ Warning averaged_warning(double average_s) {
                       1e3 * average_s)};
 }
 
-Warning ripple_warning(const DriveRipple& ripple) {
-  return {
-      "drive_ripple",
-      fmt::format(
-          "the force in stick oscillates at {:.4g} Hz, as if the driving speed varied by {:.2g} %: the speed at the "
-          "onset of a slip then differs from the mean",
-          ripple.frequency_Hz, 100.0 * ripple.speed_share)};
-}
+namespace {
 
+/// States why a force level is conditional.
+constexpr const char* kZeroUnknown = "assumes that the sensor reads 0 without force: state its reading with --zero";
+/// States why F_s - F_k and zeta of one speed are conditional.
+constexpr const char* kOneSpeed =
+    "assumes kinetic friction that does not depend on sliding speed; one driving speed cannot test this: fit a sweep";
+
+/// States why w_n and mass that are read from the slips alone are conditional. docs/model.md, section 16.
+constexpr const char* kSlipsAlone =
+    "assumes friction and a load that stay the same within a slip (a fall by half of F_s - F_k would make w_n 15 % "
+    "higher): --mass tests this";
+/// States the same where the measured normal force changes within a slip.
+constexpr const char* kLoadFollows =
+    "the measured normal force follows the force, and friction with it: m includes this; w_n, zeta and F_s - F_k are "
+    "those of the slips";
+/// States what both depend on, for FitResult::conditional_on.
+constexpr const char* kSameWithinSlip =
+    "friction (for w_n and m) and a load (for zeta and F_s - F_k, too) that stay the same within a slip";
+
+/// States the source of w_n and mass that are not read from the slips.
+constexpr const char* kStatedMass = "from the stated mass, because sensor averaging hides w_n";
+
+/// States why the mass is not identified where the force rises after a slip.
+constexpr const char* kRiseOfTimeOrDistance =
+    "the rise of the force after a slip may be the relaxation of the contact, whose stiffness in the slip is larger: "
+    "the interval includes both";
+/// Says what A and l of one recording rest on.
+constexpr const char* kRiseOfDistance =
+    "assumes that the force recovers over a distance of sliding: a contact that relaxes does the same over a time, and "
+    "one driving speed cannot distinguish them";
+
+/// What it would take to know zeta well enough. Its errors fall with the root of the cycles; identified from a quarter
+/// on.
 std::string weak_damping(const Estimate& damping) {
   const double times = std::pow(4.0 * *damping.standard_error / *damping.value, 2);
   const std::string known = fmt::format("its standard error is {:.2g}", *damping.standard_error);
@@ -42,6 +67,7 @@ std::string weak_damping(const Estimate& damping) {
                        : known + ": it cannot be distinguished from 0";
 }
 
+/// Returns the cut-off of ageing where the recordings do not determine it: the part of its range that they allow.
 Parameter held_cutoff(const AgeingCutoff& cutoff, double stick_s) {
   const std::string why =
       cutoff.ratio > thresholds::kCutoffStickRatio
@@ -57,8 +83,6 @@ Parameter held_cutoff(const AgeingCutoff& cutoff, double stick_s) {
           {0.5 * (held_s.low + held_s.high), std::nullopt, held_s, note},
           ParameterStatus::Bounded};
 }
-
-namespace {
 
 /// Returns the correlation by the covariance of a model, for the rows and columns `used` (places in kModelParameters).
 Correlation correlation_of(const ModelEstimate& estimate, const std::vector<std::size_t>& used) {
@@ -106,13 +130,12 @@ Jet value_of(const SlidingModel& model, ParameterId id) {
   }
 }
 
-}  // namespace
-
-std::optional<EstimatedModel> model_of(const Findings& findings, const SlidingModel& model) {
+/// Adds the model for everything that is computed from the fit. It needs all four of k, w_n, zeta and F_s above F_k.
+void add_model(const Findings& findings, const SlidingModel& model, FitResult& result) {
   const bool damping_known = findings.held[kDamping] || findings.damping_known();
   const bool resolved =
       !findings.weakens && findings.slip_unresolved.empty() && !findings.difference_bounds && findings.in_newtons;
-  if (!resolved || !damping_known || !(model.difference.a > 0.0)) return std::nullopt;
+  if (!resolved || !damping_known || !(model.difference.a > 0.0)) return;
   ModelEstimate estimate{model.stiffness.a, model.omega.a, model.zeta.a, model.difference.a};
   if (findings.law && findings.law->depends_on_speed) {
     estimate.speed_dependence = SpeedDependence{model.slope.a, model.alpha.a};
@@ -141,11 +164,9 @@ std::optional<EstimatedModel> model_of(const Findings& findings, const SlidingMo
     }
   }
   estimate.damping_identified = findings.held[kDamping] || findings.damping.ci95->low > 0.0;
-  Correlation correlation = correlation_of(estimate, used);
-  return EstimatedModel{estimate, std::move(correlation)};
+  result.correlation = correlation_of(estimate, used);
+  result.estimate = estimate;
 }
-
-namespace {
 
 using Id = ParameterId;
 
@@ -244,10 +265,7 @@ class Reporter {
     if (model_.relaxation) report_relaxation(*model_.relaxation);
     if (f_.sensor_average_s) add_held(Id::SensorAverage, *f_.sensor_average_s);
     if (f_.fitted_average) report_average(*f_.fitted_average);
-    if (auto model = model_of(f_, model_)) {
-      result_.estimate = model->estimate;
-      result_.correlation = std::move(model->correlation);
-    }
+    add_model(f_, model_, result_);
     result_.warnings.insert(result_.warnings.end(), f_.warnings.begin(), f_.warnings.end());
     std::sort(result_.parameters.begin(), result_.parameters.end(),
               [](const Parameter& a, const Parameter& b) { return a.id < b.id; });

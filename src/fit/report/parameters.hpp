@@ -22,53 +22,11 @@ inline constexpr const char* kStatedSpeed =
 
 /// States why nothing that is read from the slip is identified where W is fitted.
 inline constexpr const char* kFittedAverage = "assumes that the sensor averages uniformly over the fitted time";
-/// States why a force level is conditional.
-inline constexpr const char* kZeroUnknown =
-    "assumes that the sensor reads 0 without force: state its reading with --zero";
-/// States why F_s - F_k and zeta of one speed are conditional.
-inline constexpr const char* kOneSpeed =
-    "assumes kinetic friction that does not depend on sliding speed; one driving speed cannot test this: fit a sweep";
-
-/// States why w_n and mass that are read from the slips alone are conditional. docs/model.md, section 16.
-inline constexpr const char* kSlipsAlone =
-    "assumes friction and a load that stay the same within a slip (a fall by half of F_s - F_k would make w_n 15 % "
-    "higher): --mass tests this";
-/// States the same where the measured normal force changes within a slip.
-inline constexpr const char* kLoadFollows =
-    "the measured normal force follows the force, and friction with it: m includes this; w_n, zeta and F_s - F_k are "
-    "those of the slips";
-/// States what both depend on, for FitResult::conditional_on.
-inline constexpr const char* kSameWithinSlip =
-    "friction (for w_n and m) and a load (for zeta and F_s - F_k, too) that stay the same within a slip";
-
-/// States the source of w_n and mass that are not read from the slips.
+/// States the source of w_n and zeta that are not read from the slips alone.
 inline constexpr const char* kRingDown = "the free ring-down, which was used as data for w_n and zeta";
-inline constexpr const char* kStatedMass = "from the stated mass, because sensor averaging hides w_n";
-
-/// States where on the path k has its value, if it changes.
-inline constexpr const char* kInMiddle = "in the middle of the path, along which k changes";
-
-/// States why the mass is not identified where the force rises after a slip.
-inline constexpr const char* kRiseOfTimeOrDistance =
-    "the rise of the force after a slip may be the relaxation of the contact, whose stiffness in the slip is larger: "
-    "the interval includes both";
-/// Says what A and l of one recording rest on.
-inline constexpr const char* kRiseOfDistance =
-    "assumes that the force recovers over a distance of sliding: a contact that relaxes does the same over a time, and "
-    "one driving speed cannot distinguish them";
 
 /// Warns that an average of the samples is fitted.
 Warning averaged_warning(double average_s);
-
-/// Warns that a line swings in the sticks. It is of the drive, unless that would have to turn back.
-Warning ripple_warning(const DriveRipple& ripple);
-
-/// What it would take to know zeta well enough. Its errors fall with the root of the cycles; identified from a quarter
-/// on.
-std::string weak_damping(const Estimate& damping);
-
-/// Returns the cut-off of ageing where the recordings do not determine it: the part of its range that they allow.
-Parameter held_cutoff(const AgeingCutoff& cutoff, double stick_s);
 
 /// Returns the assumptions that the numbers of one recording rest on.
 std::vector<std::string> conditions_of(const Recording& recording, Tier tier);
@@ -155,13 +113,5 @@ struct Findings {
 
 /// Fills parameters, correlation and model estimate.
 void report_parameters(const Findings& findings, FitResult& result);
-
-struct EstimatedModel {
-  ModelEstimate estimate;
-  Correlation correlation;
-};
-
-/// Returns the model for everything that is computed from the fit. It needs all four of k, w_n, zeta and F_s above F_k.
-std::optional<EstimatedModel> model_of(const Findings& findings, const SlidingModel& model);
 
 }  // namespace slipfit::fit

@@ -159,6 +159,19 @@ std::optional<Bend> bend_of(const BlockFit& blocks, std::size_t recordings) {
 
 namespace {
 
+/// States where on the path k has its value, if it changes.
+constexpr const char* kInMiddle = "in the middle of the path, along which k changes";
+
+/// Warns that a line swings in the sticks. It is of the drive, unless that would have to turn back.
+Warning ripple_warning(const DriveRipple& ripple) {
+  return {
+      "drive_ripple",
+      fmt::format(
+          "the force in stick oscillates at {:.4g} Hz, as if the driving speed varied by {:.2g} %: the speed at the "
+          "onset of a slip then differs from the mean",
+          ripple.frequency_Hz, 100.0 * ripple.speed_share)};
+}
+
 /// Holds what makes k uncertain besides the fit.
 struct StiffnessFindings {
   double variance = 0.0;  ///< of ln k

@@ -164,13 +164,6 @@ Spread spread_of(const SweepData& data, const SweepSolution& solution, const std
   return spread;
 }
 
-void add_cutoff(const SweepSolution& solution, const StaticFriction& kind, Spread& spread) {
-  if (!kind) return;
-  Scatter scatter{CoordinateMatrix::Zero(), std::numeric_limits<double>::infinity()};
-  scatter.covariance.block<3, 3>(kDifference, kDifference) = ageing_line(solution, *kind).by_cutoff;
-  spread.scatter.push_back(scatter);
-}
-
 Coordinates with_damping_cut(const Coordinates& values, const Spread& spread) {
   const CoordinateMatrix covariance = spread.with_scatter();
   const double variance = covariance(kDamping, kDamping);
@@ -181,6 +174,14 @@ Coordinates with_damping_cut(const Coordinates& values, const Spread& spread) {
 }
 
 namespace {
+
+/// Adds the uncertainty of the cut-off of ageing, whose distribution is known.
+void add_cutoff(const SweepSolution& solution, const StaticFriction& kind, Spread& spread) {
+  if (!kind) return;
+  Scatter scatter{CoordinateMatrix::Zero(), std::numeric_limits<double>::infinity()};
+  scatter.covariance.block<3, 3>(kDifference, kDifference) = ageing_line(solution, *kind).by_cutoff;
+  spread.scatter.push_back(scatter);
+}
 
 constexpr std::array kRates{kLeastRate, -7.0, -5.0, -3.5, -2.5, -1.8, -1.3, -0.9,
                             -0.6,       -0.3, 0.01, 0.3,  0.6,  1.0,  1.5,  kMostRate};
@@ -253,8 +254,16 @@ void avoid_negative_damping(Coordinates& best, Sides& sides) {
   sides = {{std::make_reverse_iterator(nearest), physical.rend()}, {nearest + 1, physical.end()}};
 }
 
-}  // namespace
-
+/// Holds the best coordinates and their spread along alpha. If alpha is known badly the sum of squares is no parabola
+/// along it: alpha times zeta is known better than either, and a second minimum may have the other sign. The spread is
+/// then from refits with alpha held, out to where the sum of squares has risen by the square of Student's quantile, and
+/// from what `spread` says. Where alpha is known well, or held, it is from `spread` alone. `best` is the solution's
+/// coordinates. A negative zeta is moved to the best of the profile with zeta >= 0, and the profile leads from there to
+/// the others of these.
+struct AlongRate {
+  Coordinates best;
+  Spread spread;
+};
 AlongRate profile_rate(const SweepSolution& solution, const StaticFriction& kind, const Coordinates& best,
                        const Spread& spread) {
   AlongRate result{best, spread};
@@ -282,8 +291,6 @@ AlongRate profile_rate(const SweepSolution& solution, const StaticFriction& kind
   result.spread.profile = std::move(profile);
   return result;
 }
-
-namespace {
 
 /// alpha v_c of the logarithmic law: friction that goes on changing below the slowest sliding that a slip shows.
 constexpr std::array kEarlierRates{-3.0, -10.0, -30.0, -100.0, -300.0};
@@ -323,8 +330,8 @@ std::vector<SweepSolution> other_solutions(const SweepSolution& exponential, dou
   return solutions;
 }
 
-}  // namespace
-
+/// Returns the one with the largest move of the hyperbolic and the logarithmic laws that the recordings do not exclude.
+/// The result is empty where they exclude all.
 std::optional<OtherLaw> other_law(const SweepSolution& exponential, const StaticFriction& kind) {
   const double variance = std::max(1.0, exponential.chi2 / exponential.degrees_of_freedom);
   const Coordinates values = coordinates_of(exponential, kind);
@@ -337,8 +344,6 @@ std::optional<OtherLaw> other_law(const SweepSolution& exponential, const Static
   }
   return furthest;
 }
-
-namespace {
 
 LeftOut fit_of(const SweepData& data, const NormalSolution& fit, const StaticFriction& kind) {
   return {coordinates_of(fit.solution, kind), spread_of(data, fit.solution, fit.normals, kind), reach_of(fit.solution)};
@@ -454,10 +459,6 @@ CoordinateMatrix with_errors_of_held(const SweepData& data, const SweepSolution&
   return with_motion(held, moves, *data.motion);
 }
 
-bool depends_on_speed(const SweepSolution& solution) {
-  return solution.recordings.front().scales().law != FrictionLaw::Coulomb;
-}
-
 }  // namespace
 
 SweepOutcome with_left_out(const SweepData& data, const SweepSolution& solution) {
@@ -467,6 +468,9 @@ SweepOutcome with_left_out(const SweepData& data, const SweepSolution& solution)
   return {solution, kind, all.values, std::move(all.spread), all.reach, leave_out_each(data, normal, kind)};
 }
 
+namespace {
+
+/// Adds what intervals need besides: other laws of kinetic friction, recordings that disagree, the profile of alpha.
 SweepOutcome with_intervals(const SweepData& data, SweepOutcome outcome) {
   const SweepSolution& solution = outcome.solution;
   Spread& spread = outcome.spread;
@@ -474,7 +478,9 @@ SweepOutcome with_intervals(const SweepData& data, SweepOutcome outcome) {
     spread.covariance = with_unknown_shape(spread.covariance, *averaged);
   }
   if (data.mass || data.motion) spread.covariance = with_errors_of_held(data, solution, outcome);
-  if (depends_on_speed(solution)) outcome.other_law = other_law(solution, outcome.static_friction);
+  if (depends_on_speed(solution.recordings.front().scales().law)) {
+    outcome.other_law = other_law(solution, outcome.static_friction);
+  }
   outcome.disagree = recordings_disagree(outcome);
   if (outcome.disagree) {
     const double fitted =
@@ -488,6 +494,8 @@ SweepOutcome with_intervals(const SweepData& data, SweepOutcome outcome) {
   spread = std::move(along.spread);
   return outcome;
 }
+
+}  // namespace
 
 SweepOutcome outcome_of(const SweepData& data, const SweepSolution& solution) {
   return with_intervals(data, with_left_out(data, solution));

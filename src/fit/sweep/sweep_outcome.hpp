@@ -19,25 +19,9 @@ Coordinates coordinates_of(const SweepSolution& solution, const StaticFriction& 
 Spread spread_of(const SweepData& data, const SweepSolution& solution, const std::vector<Normal>& normals,
                  const StaticFriction& kind);
 
-/// Adds the uncertainty of the cut-off of ageing, whose distribution is known.
-void add_cutoff(const SweepSolution& solution, const StaticFriction& kind, Spread& spread);
-
 /// zeta cannot be negative: where its best value is, the best values given zeta = 0 (by the covariance, to second
 /// order).
 Coordinates with_damping_cut(const Coordinates& values, const Spread& spread);
-
-/// Holds the best coordinates and their spread along alpha. If alpha is known badly the sum of squares is no parabola
-/// along it: alpha times zeta is known better than either, and a second minimum may have the other sign. The spread is
-/// then from refits with alpha held, out to where the sum of squares has risen by the square of Student's quantile, and
-/// from what `spread` says. Where alpha is known well, or held, it is from `spread` alone. `best` is the solution's
-/// coordinates. A negative zeta is moved to the best of the profile with zeta >= 0, and the profile leads from there to
-/// the others of these.
-struct AlongRate {
-  Coordinates best;
-  Spread spread;
-};
-AlongRate profile_rate(const SweepSolution& solution, const StaticFriction& kind, const Coordinates& best,
-                       const Spread& spread);
 
 /// Describes a law of kinetic friction other than the exponential one: F_k(0+), and so F_s - F_k(0+), depends on the
 /// friction below the speeds that were measured.
@@ -47,10 +31,6 @@ struct OtherLaw {
   /// Says how far this law moves F_k(0+), F_s - F_k(0+) and, where Coulomb friction was chosen, zeta.
   Coordinates move = Coordinates::Zero();
 };
-
-/// Returns the one with the largest move of the hyperbolic and the logarithmic laws that the recordings do not exclude.
-/// The result is empty where they exclude all.
-std::optional<OtherLaw> other_law(const SweepSolution& exponential, const StaticFriction& kind);
 
 /// A fit without one recording.
 struct LeftOut {
@@ -73,9 +53,6 @@ struct SweepOutcome {
 
 /// Fits once without each recording. The spread is that of the cycles and of the scatter between recordings alone.
 SweepOutcome with_left_out(const SweepData& data, const SweepSolution& solution);
-
-/// Adds what intervals need besides: other laws of kinetic friction, recordings that disagree, the profile of alpha.
-SweepOutcome with_intervals(const SweepData& data, SweepOutcome outcome);
 
 /// Returns the solution with its intervals.
 SweepOutcome outcome_of(const SweepData& data, const SweepSolution& solution);
