@@ -60,18 +60,18 @@ class OwnFitter {
 
   [[nodiscard]] OwnFits fit() const {
     OwnFits own;
-    own.fits = of_each([this](std::size_t i) {
+    own.single = of_each([this](std::size_t i) {
       return recordings_[i].role == SweepRole::Cycles ? own_draft(input(i)) : std::nullopt;
     });
     share_length(own);
-    own.fits = of_each([&](std::size_t i) {
-      std::optional<DampedFit> fit = std::move(own.fits[i]);
+    own.single = of_each([&](std::size_t i) {
+      std::optional<DampedFit> fit = std::move(own.single[i]);
       const bool is_open = fit && (!known_ || states_average(i));
       return is_open ? fit_as_sensed(input(i), *std::move(fit)) : std::move(fit);
     });
     if (known_) return averaged(own, *known_);
     share_average(own);
-    if (!own.average) own.rounding_s2 = common_rounding_s2(recordings_, own.fits);
+    if (!own.average) own.rounding_s2 = common_rounding_s2(recordings_, own.single);
     return own;
   }
 
@@ -105,10 +105,10 @@ class OwnFitter {
   /// Fits all recordings with the common length: those that are too fast to determine it only where it explains them
   /// better.
   void share_length(OwnFits& own) const {
-    own.reload_length_m = mean_length_m(own.fits);
+    own.reload_length_m = mean_length_m(own.single);
     if (!own.reload_length_m) return;
-    own.fits = of_each([&](std::size_t i) {
-      std::optional<DampedFit> fit = std::move(own.fits[i]);
+    own.single = of_each([&](std::size_t i) {
+      std::optional<DampedFit> fit = std::move(own.single[i]);
       if (!fit) return fit;
       auto other = draft_with_rise_over(*own.reload_length_m, input(i), *fit);
       const bool is_better = other && (fit->blocks.level().reloading || gain_of(*other, *fit) > 0.0);
@@ -120,9 +120,9 @@ class OwnFitter {
     std::vector<FittedAverage> averages;
     std::size_t open = 0;
     for (std::size_t i = 0; i < recordings_.size(); ++i) {
-      if (!own.fits[i] || states_average(i)) continue;
+      if (!own.single[i] || states_average(i)) continue;
       ++open;
-      if (own.fits[i]->average) averages.push_back(*own.fits[i]->average);
+      if (own.single[i]->average) averages.push_back(*own.single[i]->average);
     }
     if (averages.empty()) return;
     const std::optional<FittedAverage> average = mean_of(averages);
@@ -130,8 +130,8 @@ class OwnFitter {
     OwnFits together = averaged(own, *average);
     double gain = 0.0;
     for (std::size_t i = 0; i < recordings_.size(); ++i) {
-      if (!own.fits[i] || states_average(i)) continue;
-      if (together.fits[i] && !own.fits[i]->average) gain += gain_of(*together.fits[i], *own.fits[i]);
+      if (!own.single[i] || states_average(i)) continue;
+      if (together.single[i] && !own.single[i]->average) gain += gain_of(*together.single[i], *own.single[i]);
     }
     if (2 * averages.size() < open && !(gain > thresholds::kTierPrice)) return;
     own = std::move(together);
@@ -140,9 +140,9 @@ class OwnFitter {
   /// All recordings that state none seen through this average.
   [[nodiscard]] OwnFits averaged(const OwnFits& own, const FittedAverage& average) const {
     OwnFits other = own;
-    other.fits = of_each([&](std::size_t i) {
-      const bool is_open = own.fits[i] && !states_average(i);
-      return is_open ? fit_averaged(i, average, *own.fits[i], own.reload_length_m) : own.fits[i];
+    other.single = of_each([&](std::size_t i) {
+      const bool is_open = own.single[i] && !states_average(i);
+      return is_open ? fit_averaged(i, average, *own.single[i], own.reload_length_m) : own.single[i];
     });
     other.average = average;
     return other;
@@ -169,7 +169,7 @@ class OwnFitter {
 
 double median_stiffness(const OwnFits& own) {
   std::vector<double> stiffnesses;
-  for (const auto& fit : own.fits) {
+  for (const auto& fit : own.single) {
     if (fit) stiffnesses.push_back(std::exp(fit->blocks.parameters.values(kLogStiffness)));
   }
   return median(std::move(stiffnesses));
@@ -180,8 +180,8 @@ std::optional<StatedMass> common_mass(std::span<const SweepRecording> recordings
                                       const HeldParameters& held) {
   std::optional<StatedMass> common;
   for (std::size_t i = 0; i < recordings.size(); ++i) {
-    if (!own.fits[i]) continue;
-    const double average_s = own.fits[i]->blocks.sensor().average_s;
+    if (!own.single[i]) continue;
+    const double average_s = own.single[i]->blocks.sensor().average_s;
     const auto mass = mass_for_frequency(recordings[i].recording.conditions(), held, median_stiffness(own), average_s);
     if (!mass || (common && mass->kg != common->kg)) return std::nullopt;
     common = mass;
@@ -193,10 +193,10 @@ std::optional<StatedMass> common_mass(std::span<const SweepRecording> recordings
 bool explains_as_well(const OwnFits& with_mass, const OwnFits& free) {
   double square = 0.0;
   double count = 0.0;
-  for (std::size_t i = 0; i < free.fits.size(); ++i) {
-    if (!free.fits[i]) continue;
-    if (!with_mass.fits[i]) return false;
-    square += std::pow(with_mass.fits[i]->uncertainty.noise / free.fits[i]->uncertainty.noise, 2);
+  for (std::size_t i = 0; i < free.single.size(); ++i) {
+    if (!free.single[i]) continue;
+    if (!with_mass.single[i]) return false;
+    square += std::pow(with_mass.single[i]->uncertainty.noise / free.single[i]->uncertainty.noise, 2);
     count += 1.0;
   }
   return std::sqrt(square / count) < thresholds::kContradictedMass;
@@ -204,7 +204,7 @@ bool explains_as_well(const OwnFits& with_mass, const OwnFits& free) {
 
 /// The recordings together determine the length of the rise.
 OwnFits with_free_rises(OwnFits own) {
-  for (std::optional<DampedFit>& fit : own.fits) {
+  for (std::optional<DampedFit>& fit : own.single) {
     if (fit) fit->blocks = with_free_rise(fit->blocks);
   }
   return own;
@@ -249,7 +249,7 @@ OwnFits fit_each(std::span<const SweepRecording> recordings, const HeldParameter
   OwnFits with_mass = OwnFitter(sweep, by_mass, {}).fit();
   if (!explains_as_well(with_mass, own)) return with_free_rises(std::move(own));
   for (std::size_t i = 0; i < recordings.size(); ++i) {
-    if (with_mass.fits[i] && own.fits[i]) with_mass.fits[i]->average = own.fits[i]->average;
+    if (with_mass.single[i] && own.single[i]) with_mass.single[i]->average = own.single[i]->average;
   }
   with_mass.average = own.average;
   with_mass.mass = mass;

@@ -13,9 +13,10 @@ namespace slipfit::fit {
 
 /// The recordings of a sweep, each on its own.
 struct OwnFits {
-  std::vector<std::optional<DampedFit>> fits;  ///< empty: not of cycles, or none that can be fitted
-  std::optional<FittedAverage> average{};      ///< in all fits of recordings that state none
-  std::optional<double> reload_length_m{};     ///< with which fits begin whose sticks rise more steeply after a slip
+  /// In the order of the recordings; empty: not of cycles, or none that can be fitted.
+  std::vector<std::optional<DampedFit>> single;
+  std::optional<FittedAverage> average{};   ///< in all fits of recordings that state none, and where a sweep begins
+  std::optional<double> reload_length_m{};  ///< with which fits begin whose sticks rise more steeply after a slip
   /// sigma^2 up to which averaging that is not in the fits rounds their slips; empty: no sign of more than a step's
   std::optional<double> rounding_s2{};
   std::optional<StatedMass> mass{};  ///< that gives w_n

@@ -5,7 +5,6 @@
 #include <boost/math/special_functions/polygamma.hpp>
 #include <boost/math/special_functions/trigamma.hpp>
 #include <cmath>
-#include <numeric>
 #include <optional>
 #include <span>
 #include <utility>
@@ -13,7 +12,6 @@
 #include "core/statistics.hpp"
 #include "core/thresholds.hpp"
 #include "fit/inference/intervals.hpp"
-#include "fit/sweep/own_fits.hpp"
 #include "signal/smoothing.hpp"
 
 namespace slipfit::fit {
@@ -21,10 +19,9 @@ namespace slipfit::fit {
 namespace {
 
 double spread_of_levels(const DampedFit& fit) {
-  const double mean = (level_of(fit) - fit.blocks.scales().level) / fit.blocks.scales().force;
-  double square = 0.0;
-  for (const Local& local : fit.blocks.parameters.cycles) square += (local[2] - mean) * (local[2] - mean);
-  return fit.blocks.scales().force * std::sqrt(square / std::max(1.0, static_cast<double>(fit.blocks.size()) - 1.0));
+  std::vector<double> levels;
+  for (const Local& local : fit.blocks.parameters.cycles) levels.push_back(local[2]);
+  return fit.blocks.scales().force * describe(levels).sd;
 }
 
 /// Returns the approximate time from the end of a slip to the next onset.
@@ -41,17 +38,10 @@ SteadyRun steady_run(const Recording& recording, double load) {
   for (std::size_t part = 0; part < kSteadyStretches; ++part) {
     const std::size_t begin = part * force.size() / kSteadyStretches;
     const std::size_t end = (part + 1) * force.size() / kSteadyStretches;
-    double sum = 0.0;
-    for (std::size_t i = begin; i < end; ++i) sum += force[i];
-    if (end > begin) means.push_back(sum / static_cast<double>(end - begin));
+    if (end > begin) means.push_back(slipfit::mean_of(force.subspan(begin, end - begin)));
   }
-  SteadyRun run{recording.conditions().speed_m_per_s, load, 0.0, 0.0};
-  const auto count = static_cast<double>(means.size());
-  for (const double mean : means) run.mean_force += mean / count;
-  double square = 0.0;
-  for (const double mean : means) square += (mean - run.mean_force) * (mean - run.mean_force);
-  run.standard_error = std::sqrt(square / (count * std::max(1.0, count - 1.0)));
-  return run;
+  const MeanAndSpread of_means = describe(means);
+  return {recording.conditions().speed_m_per_s, load, of_means.mean, of_means.sd / std::sqrt(of_means.count)};
 }
 
 /// Returns the normal forces of the recordings in N, empty where one is not known. Where the measured ones follow the
@@ -89,7 +79,7 @@ void add_loads(std::span<const SweepRecording> recordings, SweepData& data) {
     if (!load) return;
     known_N.push_back(*load);
   }
-  const double mean = std::accumulate(known_N.begin(), known_N.end(), 0.0) / static_cast<double>(known_N.size());
+  const double mean = slipfit::mean_of(known_N);
   const auto [low, high] = std::minmax_element(known_N.begin(), known_N.end());
   data.mean_load_N = std::clamp(mean, *low, *high);  // exactly the load where all are the same
   for (std::size_t i = 0; i < recordings.size(); ++i) data.loads[i] = known_N[i] / *data.mean_load_N;
@@ -157,12 +147,8 @@ Scales scales_in_sweep(const SweepData& data, std::size_t recording, FrictionLaw
 SweepData prepare_sweep(std::span<const SweepRecording> recordings, const FitOptions& options,
                         const std::optional<FittedAverage>& known) {
   SweepData data;
+  static_cast<OwnFits&>(data) = fit_each(recordings, options.held, known);
   data.notify_step = options.notify_step;
-  OwnFits own = fit_each(recordings, options.held, known);
-  data.single = std::move(own.fits);
-  data.average = own.average;
-  data.rounding_s2 = own.rounding_s2;
-  data.mass = own.mass;
   add_loads(recordings, data);
   for (std::size_t i = 0; i < recordings.size(); ++i) {
     const SweepRecording& sweep = recordings[i];

@@ -9,7 +9,7 @@
 
 #include "fit/problem/block_fit.hpp"
 #include "fit/selection/solution.hpp"
-#include "fit/selection/stated_mass.hpp"
+#include "fit/sweep/own_fits.hpp"
 #include "slipfit/core/recording.hpp"
 #include "slipfit/fit/options.hpp"
 #include "slipfit/fit/sweep_recording.hpp"
@@ -21,11 +21,7 @@ inline constexpr std::size_t kSteadyStretches = 10;
 
 /// The recordings of a sweep, fitted one by one: data, levels and starts of the fit of the sweep. Recordings whose
 /// cycles cannot be fitted are empty.
-struct SweepData {
-  std::vector<std::optional<DampedFit>> single;  ///< in the order of the recordings
-  std::optional<FittedAverage> average{};        ///< OwnFits; the fit of the sweep begins with it
-  std::optional<double> rounding_s2{};           ///< OwnFits
-  std::optional<StatedMass> mass{};              ///< OwnFits
+struct SweepData : OwnFits {
   /// Holds the motion of slips and ring-downs together, at which w_n and zeta are held: what follows has its errors.
   std::optional<FreeMotion> motion{};
   std::vector<SteadyRun> steady;
