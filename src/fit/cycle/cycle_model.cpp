@@ -448,18 +448,24 @@ bool CycleModel::evaluate(const CycleValues& values, double* residuals, double* 
   return motion.has_value();
 }
 
-void legendre(double x, std::size_t terms, double* values, double* derivatives) {
+void legendre(double x, std::size_t terms, double* values) {
   for (std::size_t n = 0; n < terms; ++n) {
     const auto order = static_cast<double>(n);
     values[n] = n == 0   ? 1.0
                 : n == 1 ? x
                          : ((2.0 * order - 1.0) * x * values[n - 1] - (order - 1.0) * values[n - 2]) / order;
-    // P'_n = P'_(n-2) + (2n - 1) P_(n-1)
-    derivatives[n] = n == 0 ? 0.0 : (2.0 * order - 1.0) * values[n - 1] + (n >= 2 ? derivatives[n - 2] : 0.0);
   }
 }
 
 namespace {
+
+/// The derivatives of the polynomials: P'_n = P'_(n-2) + (2n - 1) P_(n-1).
+void differentiate_legendre(const std::vector<double>& values, std::vector<double>& derivatives) {
+  for (std::size_t n = 0; n < values.size(); ++n) {
+    const double before = n >= 2 ? derivatives[n - 2] : 0.0;
+    derivatives[n] = n == 0 ? 0.0 : (2.0 * static_cast<double>(n) - 1.0) * values[n - 1] + before;
+  }
+}
 
 constexpr double kLeastTolerance = 1e-9;  // of a step: what is left of binary fractions
 
@@ -511,6 +517,7 @@ class LevelRow {
   template <class Row>
   void over(const StickBin& bin, Row mean, Row slope) {
     Eigen::Index column = put_polynomial(bin.time_s, mean);
+    differentiate_legendre(values_, slopes_);
     for (std::size_t i = 1; i < level_.terms; ++i)
       slope(static_cast<Eigen::Index>(i) - 1) = 2.0 / span_s() * slopes_[i];
     for (const LineInBin& line : bin.lines) {
@@ -526,7 +533,7 @@ class LevelRow {
 
   template <class Row>
   Eigen::Index put_polynomial(double time_s, Row& out) {
-    legendre(2.0 * (time_s - scales_.time_begin_s) / span_s() - 1.0, level_.terms, values_.data(), slopes_.data());
+    legendre(scales_.place_at(time_s), level_.terms, values_.data());
     for (std::size_t i = 1; i < level_.terms; ++i) out(static_cast<Eigen::Index>(i) - 1) = values_[i];
     return static_cast<Eigen::Index>(level_.terms > 0 ? level_.terms - 1 : 0);
   }

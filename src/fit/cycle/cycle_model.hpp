@@ -52,8 +52,8 @@ class Columns {
 /// The times of the sensor, of which one may be a parameter.
 SensorTimes sensor_of(const Scales& scales, const Coordinates& values);
 
-/// Values of the Legendre polynomials P_0 ... P_(terms-1) at x, and their derivatives.
-void legendre(double x, std::size_t terms, double* values, double* derivatives);
+/// Values of the Legendre polynomials P_0 ... P_(terms-1) at x.
+void legendre(double x, std::size_t terms, double* values);
 
 /// The residual rows of a cycle: its samples around the slip, then mean and slope of each stick bin.
 struct CycleRows {

@@ -29,16 +29,9 @@ std::vector<double> level_through(const BlockFit& fit, const std::vector<double>
                                   const std::vector<double>& levels) {
   const std::size_t terms = fit.level().terms;
   const Scales& scales = fit.scales();
-  Eigen::MatrixXd basis(static_cast<Eigen::Index>(times_s.size()), static_cast<Eigen::Index>(terms));
-  Eigen::VectorXd target(static_cast<Eigen::Index>(times_s.size()));
-  std::vector<double> values(terms);
-  std::vector<double> slopes(terms);
-  for (std::size_t i = 0; i < times_s.size(); ++i) {
-    legendre(scales.place_at(times_s[i]), terms, values.data(), slopes.data());
-    const auto row = static_cast<Eigen::Index>(i);
-    for (std::size_t j = 0; j < terms; ++j) basis(row, static_cast<Eigen::Index>(j)) = values[j];
-    target(row) = (levels[i] - scales.level) / scales.force;
-  }
+  const Eigen::MatrixXd basis = legendre_basis(times_s, scales.time_begin_s, scales.time_end_s, terms);
+  const Eigen::Map<const Eigen::ArrayXd> values(levels.data(), static_cast<Eigen::Index>(levels.size()));
+  const Eigen::VectorXd target = (values - scales.level) / scales.force;
   const Eigen::VectorXd solution = signal::least_squares(basis, target);
   std::vector<double> coefficients(fit.level().columns(), 0.0);  // no hum to start with
   std::copy_n(solution.data(), terms, coefficients.begin());

@@ -153,9 +153,8 @@ Selection select(const BlockFit& fit) {
   }
   const Scales& scales = fit.scales();
   std::vector<double> values(fit.level().terms);
-  std::vector<double> slopes(fit.level().terms);
   for (std::size_t cycle = 0; cycle < fit.size(); ++cycle) {
-    legendre(scales.place_at(fit.reference_s(cycle)), fit.level().terms, values.data(), slopes.data());
+    legendre(scales.place_at(fit.reference_s(cycle)), fit.level().terms, values.data());
     for (std::size_t i = 0; i < values.size(); ++i) {
       selection.common(columns.level(0) + static_cast<Index>(i), kLevel) += values[i] / static_cast<double>(fit.size());
     }

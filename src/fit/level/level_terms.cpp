@@ -20,26 +20,24 @@ double sum_of_squares_about(const Eigen::MatrixXd& basis, const Eigen::VectorXd&
 
 constexpr std::size_t kMostTerms = 12;
 
-Eigen::MatrixXd legendre_basis(const std::vector<double>& time_s, std::size_t terms) {
+}  // namespace
+
+Eigen::MatrixXd legendre_basis(const std::vector<double>& time_s, double begin_s, double end_s, std::size_t terms) {
   Eigen::MatrixXd basis(static_cast<Eigen::Index>(time_s.size()), static_cast<Eigen::Index>(terms));
   std::vector<double> values(terms);
-  std::vector<double> slopes(terms);
-  const double span_s = time_s.back() - time_s.front();
   for (std::size_t i = 0; i < time_s.size(); ++i) {
-    legendre(2.0 * (time_s[i] - time_s.front()) / span_s - 1.0, terms, values.data(), slopes.data());
+    legendre(2.0 * (time_s[i] - begin_s) / (end_s - begin_s) - 1.0, terms, values.data());
     for (std::size_t j = 0; j < terms; ++j)
       basis(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = values[j];
   }
   return basis;
 }
 
-}  // namespace
-
 std::size_t choose_level_terms(const std::vector<double>& time_s, const std::vector<double>& level) {
   const auto count = static_cast<Eigen::Index>(time_s.size());
   const double span_s = time_s.back() - time_s.front();
   if (count < 6 || !(span_s > 0.0)) return 1;
-  const Eigen::MatrixXd basis = legendre_basis(time_s, kMostTerms);
+  const Eigen::MatrixXd basis = legendre_basis(time_s, time_s.front(), time_s.back(), kMostTerms);
   const Eigen::Map<const Eigen::VectorXd> values(level.data(), count);
   const double total = sum_of_squares_about(basis, values, 1);
   if (!(total > 0.0)) return 1;
@@ -60,7 +58,7 @@ std::size_t choose_level_terms(const std::vector<double>& time_s, const std::vec
 
 std::vector<double> smooth_level(const std::vector<double>& time_s, const std::vector<double>& level,
                                  std::size_t terms) {
-  const Eigen::MatrixXd basis = legendre_basis(time_s, terms);
+  const Eigen::MatrixXd basis = legendre_basis(time_s, time_s.front(), time_s.back(), terms);
   const Eigen::Map<const Eigen::VectorXd> values(level.data(), static_cast<Eigen::Index>(level.size()));
   const Eigen::VectorXd smooth = basis * signal::least_squares(basis, values);
   return {smooth.data(), smooth.data() + smooth.size()};
@@ -72,7 +70,8 @@ double unexplained_level(const std::vector<double>& time_s, const std::vector<do
   const auto columns = static_cast<Eigen::Index>(terms) + 1;
   if (count <= columns + 1 || !(time_s.back() > time_s.front())) return 0.0;
   Eigen::MatrixXd basis(count, columns);
-  basis << legendre_basis(time_s, terms), Eigen::Map<const Eigen::VectorXd>(drop.data(), count);
+  basis << legendre_basis(time_s, time_s.front(), time_s.back(), terms),
+      Eigen::Map<const Eigen::VectorXd>(drop.data(), count);
   const Eigen::Map<const Eigen::VectorXd> values(level.data(), count);
   return std::sqrt(sum_of_squares_about(basis, values, columns) / static_cast<double>(count - columns));
 }

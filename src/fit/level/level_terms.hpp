@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <vector>
 
@@ -7,6 +8,9 @@
 #include "slipfit/core/recording.hpp"
 
 namespace slipfit::fit {
+
+/// Returns the values of the first Legendre polynomials on [begin_s, end_s], a row for each of the times.
+Eigen::MatrixXd legendre_basis(const std::vector<double>& time_s, double begin_s, double end_s, std::size_t terms);
 
 /// Number of Legendre terms (1: constant) that the middles of the slips justify, by BIC with a handicap against drift
 /// that scatter only imitates; at most a third of the slips.
