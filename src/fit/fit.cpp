@@ -16,6 +16,7 @@
 #include "fit/report/recording_findings.hpp"
 #include "fit/selection/chosen_fit.hpp"
 #include "fit/selection/tiers.hpp"
+#include "fit/sweep/sweep_data.hpp"
 #include "model/reloading.hpp"
 
 namespace slipfit {
@@ -40,9 +41,7 @@ HeldParameters held_parameters(const FitOptions& options) {
 
 FitDiagnostics diagnostics_of(const Recording& recording, const DampedFit& damped, const fit::Resolution& resolution) {
   const BlockFit& blocks = damped.blocks;
-  double mean = 0.0;
-  const auto count = static_cast<double>(blocks.size());
-  for (std::size_t i = 0; i < blocks.size(); ++i) mean += blocks.state(i).onset_force / count;
+  const double mean = fit::mean_onset_force(damped);
   FitDiagnostics diagnostics;
   diagnostics.relative_residual = damped.uncertainty.noise / std::abs(mean);
   diagnostics.onset_force_spread = damped.uncertainty.onset_force_sd * blocks.scales().force / std::abs(mean);
@@ -110,9 +109,8 @@ std::vector<CurvePoint> curve_of(const Recording& recording, const BlockFit& blo
     const CycleState state = blocks.state(c);
     const fit::StickBend bend = blocks.model(c).bend(blocks.parameters.values);
     const double* local = blocks.parameters.cycles[c].data();
-    auto i = static_cast<std::size_t>(std::lower_bound(time_s.begin(), time_s.end(), blocks.data(c).window_begin_s) -
-                                      time_s.begin());
-    for (; i < time_s.size() && time_s[i] < blocks.data(c).window_end_s; ++i) {
+    for (std::size_t i = fit::index_at(time_s, blocks.data(c).window_begin_s);
+         i < time_s.size() && time_s[i] < blocks.data(c).window_end_s; ++i) {
       const double interference = blocks.model(c).hum_at(time_s[i], blocks.level_data());
       curve.push_back({i,
                        blocks.model(c).level_at(time_s[i], blocks.level_data(), local) + interference +

@@ -87,9 +87,7 @@ class Cutter {
     return cycle;
   }
 
-  [[nodiscard]] std::size_t index_at(double time_s) const {
-    return static_cast<std::size_t>(std::lower_bound(time_s_.begin(), time_s_.end(), time_s) - time_s_.begin());
-  }
+  [[nodiscard]] std::size_t index_at(double time_s) const { return fit::index_at(time_s_, time_s); }
 
   [[nodiscard]] bool has_gap(const std::vector<std::size_t>& samples) const {
     for (std::size_t i = 1; i < samples.size(); ++i) {

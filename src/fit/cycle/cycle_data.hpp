@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -65,7 +66,7 @@ struct SensorTimes {
 /// Returns for how long before or after a slip such a sensor still shows it, in s. A filter decays to e^-8:
 /// the slowest pole of a Butterworth response has its delay as time constant.
 inline double shown_beyond_s(const SensorTimes& sensor) {
-  return 8.0 * sensor.lag_s + 0.5 * sensor.average_s;
+  return kForgottenLags * sensor.lag_s + 0.5 * sensor.average_s;
 }
 
 /// Holds the typical cycle of a recording on a spring that relaxes, from which the force that is still relaxing at an
@@ -148,6 +149,11 @@ struct CycleData {
 
   [[nodiscard]] std::size_t residuals() const { return time_s.size() + 2 * (bins_before.size() + bins_after.size()); }
 };
+
+/// Returns the index of the first sample at this time or later; the number of samples where there is none.
+inline std::size_t index_at(std::span<const double> times_s, double time_s) {
+  return static_cast<std::size_t>(std::ranges::lower_bound(times_s, time_s) - times_s.begin());
+}
 
 /// Neighbours, whose joined ramps halve the error of k.
 constexpr std::size_t kCyclesOfRun = 8;

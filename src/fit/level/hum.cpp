@@ -39,14 +39,11 @@ struct EvenRest {
 /// Neighbours are those between which fewer cycles than a run's are missing.
 std::vector<CycleRun> runs_of(const Recording& recording, const BlockFit& fit) {
   const auto time_s = recording.time_s();
-  const auto index_at = [&](double t_s) {
-    return static_cast<std::size_t>(std::lower_bound(time_s.begin(), time_s.end(), t_s) - time_s.begin());
-  };
   std::vector<CycleRun> runs;
   for (std::size_t i = 0; i < fit.size(); ++i) {
-    const std::size_t end = index_at(fit.data(i).window_end_s);
+    const std::size_t end = index_at(time_s, fit.data(i).window_end_s);
     if (i == 0 || fit.data(i).slip - fit.data(i - 1).slip > kCyclesOfRun) {
-      runs.push_back({index_at(fit.data(i).window_begin_s), end});
+      runs.push_back({index_at(time_s, fit.data(i).window_begin_s), end});
     }
     runs.back().end = end;
   }
@@ -324,8 +321,8 @@ std::vector<double> without_repeats(const Recording& recording, const BlockFit& 
     for (std::size_t i = 0; i < fit.size(); ++i) {
       const double onset_s = fit.state(i).onset_s;
       const CycleData& cycle = fit.data(i);
-      auto at = static_cast<std::size_t>(std::ranges::lower_bound(time_s, cycle.window_begin_s) - time_s.begin());
-      for (; at < time_s.size() && time_s[at] < cycle.window_end_s; ++at) {
+      for (std::size_t at = index_at(time_s, cycle.window_begin_s);
+           at < time_s.size() && time_s[at] < cycle.window_end_s; ++at) {
         const auto place = static_cast<std::ptrdiff_t>(std::lround((time_s[at] - onset_s) / step_s)) + half;
         if (residuals[at] != 0.0 && place >= 0 && place <= 2 * half) f(at, static_cast<std::size_t>(place));
       }

@@ -44,10 +44,7 @@ class ResidualsOfCycles {
   [[nodiscard]] Residuals take() { return std::move(result_); }
 
  private:
-  [[nodiscard]] std::size_t index_at(double t_s) const {
-    const auto time_s = recording_.time_s();
-    return static_cast<std::size_t>(std::lower_bound(time_s.begin(), time_s.end(), t_s) - time_s.begin());
-  }
+  [[nodiscard]] std::size_t index_at(double t_s) const { return fit::index_at(recording_.time_s(), t_s); }
 
   void add(std::size_t cycle) {
     const CycleState state = fit_.state(cycle);
