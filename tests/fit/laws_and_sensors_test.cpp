@@ -148,7 +148,7 @@ TEST_CASE("one recording gives back the parameters of every law in closed form b
   CAPTURE(name_of(law), view == ForceView::Spring, instrument.lag_s, instrument.average_s, instrument.order);
   const Coordinates truth = true_values(law);
   BlockFit fit = displaced(exact(scales_of(law, view, instrument, 0.01, false), truth));
-  REQUIRE(std::isfinite(solve(fit, {{}, false, false, 200, 1e-12})));
+  REQUIRE(std::isfinite(solve(fit, {{}, false, 200, 1e-12})));
   for (const Coordinate coordinate : fit.columns().coordinates()) {
     CAPTURE(coordinate);
     CHECK(fit.parameters.values(coordinate) == Approx(truth(coordinate)).margin(1e-6));
@@ -168,7 +168,7 @@ TEST_CASE("a stiffness that changes along the path is found under every law in c
   Coordinates truth = true_values(law);
   truth(kStiffnessDrift) = 0.15;
   BlockFit fit = displaced(exact(scales, truth, kDistance_s));
-  REQUIRE(std::isfinite(solve(fit, {{}, false, false, 200, 1e-12})));
+  REQUIRE(std::isfinite(solve(fit, {{}, false, 200, 1e-12})));
   for (const Coordinate coordinate : fit.columns().coordinates()) {
     CAPTURE(coordinate);
     CHECK(fit.parameters.values(coordinate) == Approx(truth(coordinate)).margin(1e-6));
@@ -189,7 +189,7 @@ TEST_CASE("a sweep gives back the parameters of every law behind every sensor in
   Held held{};
   held[kFrictionRate] =
       true;  // beside slope and zeta three speeds tell it to a hundredth only: test the others sharply
-  REQUIRE(std::isfinite(solve_together(recordings, {}, {held, false, false, 200, 1e-12})));
+  REQUIRE(std::isfinite(solve_together(recordings, {}, {held, false, 200, 1e-12})));
   // Slips under friction that depends on the speed are integrated to 1e-7 of the motion.
   const double margin = depends_on_speed(law) ? 1e-4 : 1e-6;
   for (const Coordinate coordinate : recordings.front().columns().coordinates()) {
@@ -214,7 +214,7 @@ TEST_CASE("a sweep gives back the parameters of a spring that relaxes behind eve
     scales.relaxing = RelaxingCycles{3.3, 3.3 + kModelOmega * stick_s, 10.0};
     recordings.push_back(displaced(exact(scales, truth)));
   }
-  REQUIRE(std::isfinite(solve_together(recordings, {}, {{}, false, false, 200, 1e-12})));
+  REQUIRE(std::isfinite(solve_together(recordings, {}, {{}, false, 200, 1e-12})));
   for (const Coordinate coordinate : recordings.front().columns().coordinates()) {
     if (coordinate == kDifference) continue;
     CAPTURE(coordinate);
@@ -229,11 +229,11 @@ TEST_CASE("a solve that comes to the end of a parameter's range goes on along it
   BlockFit bounded = displaced(exact(scales_of(law, ForceView::Spring, {}, 0.01, false), truth));
   bounded.parameters.values(kDamping) = 0.1;
   BlockFit at_end = bounded;
-  const double sum = solve(bounded, {{}, false, true, 200, 1e-6, true});
+  const double sum = solve(bounded, {{}, false, 200, 1e-6, true});
   Held held{};
   held[kDamping] = true;
   at_end.parameters.values(kDamping) = 0.0;
-  const double least = solve(at_end, {held, false, true, 200, 1e-6});
+  const double least = solve(at_end, {held, false, 200, 1e-6});
   CHECK(bounded.parameters.values(kDamping) == Approx(0.0).margin(1e-12));
   // Both solves end where nothing is gained but a share of 1e-6 of one residual.
   CHECK(sum == Approx(least).epsilon(1e-5));

@@ -48,7 +48,7 @@ TEST_CASE("one step without a recording of many goes as far as a fit without it"
       REQUIRE(step);
       fit::SweepSolution others = *solution;
       others.recordings.erase(others.recordings.begin() + static_cast<std::ptrdiff_t>(recording));
-      const double chi2 = fit::solve_together(others.recordings, others.sweep, {others.held, false, true, 50, 1e-4});
+      const double chi2 = fit::solve_together(others.recordings, others.sweep, {others.held, false, 50, 1e-4});
       const fit::StaticFriction kind;  // constant
       const fit::Spread spread = fit::spread_of(prepared.data, step->solution, step->normals, kind);
       const fit::Coordinates off = fit::coordinates_of(step->solution, kind) - fit::coordinates_of(others, kind);

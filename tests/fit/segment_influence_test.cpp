@@ -70,7 +70,7 @@ TEST_CASE("one step without a stretch of the slips moves the quantities nearly a
   Eigen::MatrixXd refitted(fit::kSegments, before.size());
   for (int phase = 0; phase < fit::kSegments; ++phase) {
     fit::BlockFit refit = without(damped->blocks, static_cast<std::size_t>(phase));
-    REQUIRE(std::isfinite(fit::solve(refit, {damped->held, false, true})));
+    REQUIRE(std::isfinite(fit::solve(refit, {damped->held, false})));
     refitted.row(phase) = (fit::coordinates_of(refit) - before).transpose();
   }
   // Only the spread over the stretches is used; the step is linear, the refit is not.
@@ -102,7 +102,7 @@ TEST_CASE("influences of residuals tell where a refit to other samples goes") {
   }
   const auto refitted = [&](fit::BlockFit refit) {
     refit.parameters = fit.parameters;
-    REQUIRE(std::isfinite(fit::solve(refit, {damped->held, false, false, 60, 1e-6})));
+    REQUIRE(std::isfinite(fit::solve(refit, {damped->held, false, 60, 1e-6})));
     return fit::coordinates_of(refit);
   };
   const fit::Coordinates before = refitted(fit);

@@ -96,13 +96,13 @@ class CycleSet {
 };
 
 /// A cycle's own numbers, scaled: onset time (from its reference, in half periods), force at onset above the level and,
-/// where the level is per cycle, the level. The last is 0 and unused otherwise.
+/// where the level is per cycle, the level. The last is not used otherwise.
 using Local = std::array<double, 3>;
 
 /// Points to the parameters of a cycle's residuals.
 struct CycleValues {
   const Coordinates* shared = nullptr;  ///< those of Columns::coordinates are read
-  /// The level's constant; null where it has none: a level per cycle outside a sweep. In a sweep a level per cycle
+  /// The level's constant; not read where it has none: a level per cycle outside a sweep. In a sweep a level per cycle
   /// follows this one.
   const double* constant = nullptr;
   const double* drift = nullptr;  ///< coefficients of the level's other functions

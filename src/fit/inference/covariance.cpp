@@ -54,7 +54,7 @@ std::optional<RampResidual> ramp_after(const BlockFit& fit, std::size_t cycle, b
 
 /// `own`: S of the own parameters of each cycle.
 Response response_of(const Problem& problem, const std::vector<Normal>& normals, const Selection& selection,
-                     const MatrixXd& own, const SolveOptions& solved) {
+                     const MatrixXd& own, const Solved& solved) {
   const CommonColumns columns(problem);
   Elimination elimination(columns.size(), 0.0, kCoordinates);
   for (std::size_t i = 0; i < normals.size(); ++i) {
@@ -84,7 +84,7 @@ double cycles_of(const Problem& problem) {
 }  // namespace
 
 CoordinateMatrix white_covariance(const Problem& problem, const std::vector<Normal>& normals,
-                                  const Selection& selection, const SolveOptions& solved) {
+                                  const Selection& selection, const Solved& solved) {
   const MatrixXd own = selection.local / cycles_of(problem);
   const Response response = response_of(problem, normals, selection, own, solved);
   CoordinateMatrix covariance = -selection.common.transpose() * response.common;
@@ -93,7 +93,7 @@ CoordinateMatrix white_covariance(const Problem& problem, const std::vector<Norm
   return covariance;
 }
 
-std::vector<MatrixXd> influences_of(const BlockFit& fit, const Selection& selection, const SolveOptions& solved) {
+std::vector<MatrixXd> influences_of(const BlockFit& fit, const Selection& selection, const Solved& solved) {
   const Problem problem{{&fit, 1}};
   const MatrixXd own = selection.local / cycles_of(problem);
   const Response response = response_of(problem, normals_of(problem), selection, own, solved);

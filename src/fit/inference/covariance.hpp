@@ -9,6 +9,12 @@
 
 namespace slipfit::fit {
 
+/// Says how a solution was found, as SolveOptions.
+struct Solved {
+  Held held{};
+  bool continuous = false;
+};
+
 /// Derivatives of the coordinates with respect to the common parameters and to the mean of the cycles' own ones.
 struct Selection {
   Eigen::MatrixXd common;  ///< common x coordinates
@@ -16,7 +22,7 @@ struct Selection {
 };
 
 /// A step of the common parameters to the least sum of squares, the cycles' own parameters following; cycles far worse
-/// than the others count linearly (SolveOptions::robust).
+/// than the others count linearly (huber_weight).
 struct NewtonStep {
   Eigen::VectorXd step;
   double sum_of_squares = 0.0;  ///< after the step
@@ -36,11 +42,11 @@ Coordinates move_of(const Selection& selection, const Elimination& elimination, 
 /// Inverse normal matrix seen through the coordinates: S' H^-1 S, with the ramps' coupling of neighbours where
 /// continuous. Not a number where H is singular.
 CoordinateMatrix white_covariance(const Problem& problem, const std::vector<Normal>& normals,
-                                  const Selection& selection, const SolveOptions& solved);
+                                  const Selection& selection, const Solved& solved);
 
 /// Returns the moves of the coordinates by the residuals of each cycle of a recording, to first order: residuals x
 /// coordinates. They are not a number where H is singular.
-std::vector<Eigen::MatrixXd> influences_of(const BlockFit& fit, const Selection& selection, const SolveOptions& solved);
+std::vector<Eigen::MatrixXd> influences_of(const BlockFit& fit, const Selection& selection, const Solved& solved);
 
 /// Delete-one-cycle jackknife of the coordinates, one Newton step each: CR3.
 CoordinateMatrix jackknife_covariance(const Problem& problem, const std::vector<Normal>& normals,

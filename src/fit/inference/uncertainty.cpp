@@ -162,7 +162,7 @@ Selection select(const BlockFit& fit) {
   return selection;
 }
 
-Uncertainty estimate_uncertainty(const BlockFit& fit, const SolveOptions& solved) {
+Uncertainty estimate_uncertainty(const BlockFit& fit, const Solved& solved) {
   const Problem problem{{&fit, 1}};
   const std::vector<Normal> normals = normals_of(problem);
   Uncertainty result;

@@ -39,7 +39,7 @@ Selection select(const BlockFit& fit);
 
 /// Held and continuous as the solution was found. White-noise covariance where residuals are white, otherwise the
 /// delete-one jackknife over cycles (cluster-robust CR3), which sees misfit and correlated noise alike.
-Uncertainty estimate_uncertainty(const BlockFit& fit, const SolveOptions& solved);
+Uncertainty estimate_uncertainty(const BlockFit& fit, const Solved& solved);
 
 /// Stretches of equal length from shortly before a slip to shortly after it.
 inline constexpr int kSegments = 8;

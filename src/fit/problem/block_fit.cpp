@@ -104,15 +104,6 @@ void BlockFit::start_at(const Coordinates& start) {
   if (start(kReloadForce) != 0.0) parameters.values.segment<2>(kReloadForce) = start.segment<2>(kReloadForce);
 }
 
-CycleValues BlockFit::values(std::size_t cycle) const {
-  CycleValues values;
-  values.shared = &parameters.values;
-  values.constant = parameters.level.data();
-  values.drift = parameters.level.data() + (columns_->has_constant() ? 1 : 0);
-  values.local = parameters.cycles[cycle].data();
-  return values;
-}
-
 CycleState BlockFit::state(std::size_t cycle) const {
   return models_[cycle].state(parameters.values, parameters.cycles[cycle].data()).value();
 }
@@ -139,6 +130,12 @@ std::size_t BlockFit::residuals() const {
   std::size_t rows = 0;
   for (const CycleModel& model : models_) rows += model.residuals();
   return rows;
+}
+
+double sum_of_squares(const BlockFit& fit) {
+  double sum = 0.0;
+  for (const double of_cycle : fit.sums_of_squares()) sum += of_cycle;
+  return sum;
 }
 
 double resting_share(const BlockFit& fit) {

@@ -38,6 +38,12 @@ struct Parameters {
   std::vector<Local> cycles;
 };
 
+/// Points to the parameters of one cycle, which has these of its own. All three must outlive what is returned.
+inline CycleValues values_of(const Parameters& parameters, const Columns& columns, const Local& local) {
+  const double* const level = parameters.level.data();
+  return {&parameters.values, level, level + (columns.has_constant() ? 1 : 0), local.data()};
+}
+
 /// Holds a recording in a fit and its current solution. The cycles are blocks next to the shared parameters, as in a
 /// bundle adjustment.
 class BlockFit {
@@ -80,7 +86,9 @@ class BlockFit {
   /// Points to the coefficients of the cosine and sine of each line, over Scales::force; it is valid where there are
   /// lines.
   [[nodiscard]] const double* wave_data() const { return level_data() + model(0).first_wave(); }
-  [[nodiscard]] CycleValues values(std::size_t cycle) const;
+  [[nodiscard]] CycleValues values(std::size_t cycle) const {
+    return values_of(parameters, *columns_, parameters.cycles[cycle]);
+  }
   [[nodiscard]] const Columns& columns() const { return *columns_; }
   [[nodiscard]] bool solves_for(Coordinate coordinate) const { return columns_->has(coordinate); }
   /// Returns the times of the sensor at the solution.
@@ -97,6 +105,9 @@ class BlockFit {
   std::shared_ptr<const Columns> columns_;
   std::vector<CycleModel> models_;
 };
+
+/// Returns the sum of BlockFit::sums_of_squares.
+double sum_of_squares(const BlockFit& fit);
 
 /// Share of the slips that come to rest at the solution, under a law in closed form.
 double resting_share(const BlockFit& fit);

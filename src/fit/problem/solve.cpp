@@ -1,6 +1,7 @@
 #include "fit/problem/solve.hpp"
 
 #include <ceres/ceres.h>
+#include <Eigen/Core>
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -21,26 +22,67 @@ namespace {
 
 using Eigen::Index;
 
+/// The sum of squares of a problem as a function of the parameters that its cycles have in common: each cycle's own
+/// follow them (variable projection, one Gauss-Newton step at a time).
+class Bundle {
+ public:
+  /// Both must outlive this.
+  Bundle(const Problem& problem, const SolveOptions& options);
+
+  struct Values {
+    Eigen::VectorXd common;  ///< in the order of CommonColumns
+    std::vector<Local> cycles;
+  };
+  struct Point : Values {
+    double sum = 0.0;  ///< of squares; cycles far worse than the others count linearly (huber_weight)
+    Elimination normal;
+  };
+  /// Returns the point at the parameters of the recordings; it is empty outside the model. `damping` applies to the
+  /// steps of the cycles' own parameters from there (Elimination).
+  [[nodiscard]] std::optional<Point> start(double damping) const;
+  /// Does the same as `start` at other values.
+  [[nodiscard]] std::optional<Point> at(Values values, double damping) const;
+  /// Returns the values after a step of the common parameters. The cycles' own follow, and they take `share` of the
+  /// step by which they can still gain where the common ones are fixed.
+  [[nodiscard]] Values moved(const Point& from, const Eigen::VectorXd& step, double share) const;
+  /// Returns whether the slips of all cycles have solutions there. Where slips are integrated this is not checked, and
+  /// so false: it would take as long as the sum of squares.
+  [[nodiscard]] bool is_inside(const Values& values) const;
+  /// Writes values to the recordings, which have the problem's order.
+  void put(const Values& values, std::span<BlockFit> recordings) const;
+
+  [[nodiscard]] Eigen::Index common() const { return columns_.size(); }
+  /// Rows of residuals.
+  [[nodiscard]] std::size_t residuals() const { return residuals_; }
+
+ private:
+  [[nodiscard]] bool add(std::size_t recording, std::size_t first_cycle, Point& point) const;
+  /// Writes [J r]' [J r] of a cycle with [J r] = `lines`, as Elimination takes it, and returns the cycle's part of the
+  /// sum.
+  [[nodiscard]] double put_products(const Eigen::MatrixXd& lines, Eigen::Ref<RowMajor> normal) const;
+  void add_steady(Point& point) const;
+
+  const Problem& problem_;
+  const SolveOptions& options_;
+  CommonColumns columns_;
+  std::size_t residuals_ = 0;
+};
+
 /// The parameters of a recording, taken from those that all have in common.
 class Gathered {
  public:
   Gathered(const CommonColumns& columns, std::size_t recording, const BlockFit& fit, const Eigen::VectorXd& common)
-      : parameters_{fit.parameters.values, fit.parameters.level, {}}, has_constant_(fit.columns().has_constant()) {
+      : parameters_{fit.parameters.values, fit.parameters.level, {}}, columns_(fit.columns()) {
     columns.visit(recording, fit, parameters_, [&](Index column, double& value) { value = common(column); });
   }
 
-  [[nodiscard]] CycleValues with(const Local& local) const {
-    const double* const level = parameters_.level.data();
-    return {&parameters_.values, level, level + (has_constant_ ? 1 : 0), local.data()};
-  }
+  [[nodiscard]] CycleValues with(const Local& local) const { return values_of(parameters_, columns_, local); }
   [[nodiscard]] const Coordinates& values() const { return parameters_.values; }
 
  private:
   Parameters parameters_;
-  bool has_constant_;
+  const Columns& columns_;
 };
-
-}  // namespace
 
 Bundle::Bundle(const Problem& problem, const SolveOptions& options)
     : problem_(problem), options_(options), columns_(problem) {
@@ -103,7 +145,7 @@ std::optional<Bundle::Point> Bundle::at(Values values, double damping) const {
     if (!add(r, first, point)) return std::nullopt;
     first += problem_.recordings[r].size();
   }
-  if (!add_steady(point)) return std::nullopt;
+  add_steady(point);
   return std::isfinite(point.sum) ? std::optional(std::move(point)) : std::nullopt;
 }
 
@@ -143,14 +185,13 @@ bool Bundle::add(std::size_t recording, std::size_t first_cycle, Point& point) c
 double Bundle::put_products(const Eigen::MatrixXd& lines, Eigen::Ref<RowMajor> normal) const {
   products_of(lines, normal);
   const auto residuals = lines.rightCols<1>();
-  if (!options_.robust) return residuals.squaredNorm();
   const HuberWeight weight = huber_weight(residuals.norm(), static_cast<std::size_t>(lines.rows()));
   normal.triangularView<Eigen::Upper>() = weight.factor * normal;
   return weight.sum;
 }
 
-bool Bundle::add_steady(Point& point) const {
-  if (!problem_.sweep.sharing.level) return true;
+void Bundle::add_steady(Point& point) const {
+  if (!problem_.sweep.sharing.level) return;
   const BlockFit& first = problem_.recordings.front();
   const Gathered common(columns_, 0, first, point.common);
   for (const SteadyRun& run : problem_.sweep.steady) {
@@ -159,10 +200,7 @@ bool Bundle::add_steady(Point& point) const {
     point.normal.add_cycle(products_of(steady, first.columns()), columns_.of_steady());
     point.sum += steady.value * steady.value;
   }
-  return true;
 }
-
-namespace {
 
 /// A time of the sensor of a hundredth of the slip leaves no trace, and none is not a value that derivatives lead to.
 constexpr double kLeastSensorTime = 1e-4;  // (time / Scales::sensor_time_unit_s)^2

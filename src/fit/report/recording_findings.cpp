@@ -232,8 +232,8 @@ Coordinates move_by_averaging(const DampedFit& fit, const BlockFit& blocks, cons
   Scales scales = blocks.scales();
   scales.sensor_average_s = step_s;
   BlockFit averaged = blocks.with_scales(scales);
-  if (!std::isfinite(solve(averaged, {fit.held, false, true}))) return linear;
-  constexpr double kLost = 1.0;  // of ln w_n: such slips may be as quick as one likes
+  if (!std::isfinite(solve(averaged, {fit.held, false}))) return linear;
+  constexpr double kLost = 1.0;  // of ln w_n: such slips may be arbitrarily short
   Coordinates move = coordinates_of(averaged) - coordinates_of(blocks);
   if (std::abs(move(kLogFrequency)) > kLost) move(kLogFrequency) = linear(kLogFrequency);
   return move;

@@ -127,12 +127,14 @@ AverageTrial try_average(const FitInput& input, const DampedFit& plain) {
   const std::optional<TermFitter> fitter = TermFitter::create(input, plain);
   if (!fitter) return {};
   std::vector<Minimum> minima = fitter->minima({.average = true}).found;
-  const Minimum without = fitter->plain();
+  std::optional<Minimum> without;  // only where a minimum remains to be compared
   std::erase_if(minima, [&](const Minimum& minimum) {
     if (!is_resolved(minimum.blocks, input.recording.sample_interval_s())) return true;
     if (!is_shaped(find_misfit(minimum.blocks, tolerated_misfit(input.quality)))) return true;
-    const bool may_pay = fitter->gain_on_all(minimum, without) > 0.5 * thresholds::kTierPrice;
-    return !may_pay && !(hides_damping(minimum.blocks) && fitter->gain_on_some(minimum, without) > -2.0 * kNotRuledOut);
+    if (!without) without = fitter->plain();
+    const bool may_pay = fitter->gain_on_all(minimum, *without) > 0.5 * thresholds::kTierPrice;
+    return !may_pay &&
+           !(hides_damping(minimum.blocks) && fitter->gain_on_some(minimum, *without) > -2.0 * kNotRuledOut);
   });
   if (minima.empty()) return {};
   auto [fit, gain_on_samples, other] = best_fit(input, *fitter, plain, minima);

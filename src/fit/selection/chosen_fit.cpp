@@ -43,7 +43,9 @@ Chosen with_weakening(Chosen chosen, const FitInput& input, std::optional<Tier> 
   }
   chosen.fits.damped.average_caveat = trial.average_caveat;
   chosen.candidates.push_back(std::move(candidate));
-  if (trial.warning) chosen.warnings.push_back(*std::move(trial.warning));
+  if (!trial.average_caveat.empty()) {
+    chosen.warnings.push_back(Warning{"samples_averaged", trial.average_caveat});
+  }
   return chosen;
 }
 

@@ -28,7 +28,7 @@ constexpr std::size_t kProbeCycles = kFewestWandering;
 /// Enough to know the shared parameters to an error or two: all cycles then need few steps, however many they are.
 constexpr std::size_t kMiddleCycles = 64;
 constexpr std::size_t kManyCycles = 2 * kMiddleCycles;
-constexpr int kMiddleIterations = 20;  // what creeps on does not explain the slips
+constexpr int kMiddleIterations = 20;  // slow convergence means that the model does not explain the slips
 constexpr int kQuickIterations = 8;
 constexpr int kCleanPasses = 4;
 constexpr int kProbeIterations = 12;
@@ -97,7 +97,7 @@ class Fitter {
       if (!fit) return std::nullopt;
     }
     if (excluded_.size() > excluded) fit = or_wandering(*std::move(fit), kFinal);  // outliers may have led there
-    if (!fit->level().lines_Hz.empty()) fit = with_hum_in_bins(*std::move(fit), cut());
+    if (!fit->level().lines_Hz.empty()) fit = with_hum_in_bins(*std::move(fit));
     if (quality_.clock_jitter > thresholds::kUnevenClock) fit = with_clock_weights(std::move(*fit));
     if (!refuse_negative_damping(*fit, kFinal)) return std::nullopt;
     return with_uncertainty(
@@ -117,15 +117,12 @@ class Fitter {
   std::optional<BlockFit> started() {
     start_stiffness_ = held_values_.stiffness_N_per_m.value_or(stiffness_of(recording_, segmentation_));
     if (!(start_stiffness_ > 0.0)) return std::nullopt;
-    cycles_ = cut_cycles(recording_, segmentation_, half_width_s(start_stiffness_, scales_), excluded_);
+    cycles_ = cut();
     if (cycles_.size() < thresholds::kFewestSlips) return std::nullopt;
     scales_.time_begin_s = cycles_.front().window_begin_s;
     scales_.time_end_s = cycles_.back().window_end_s;
     const LevelModel level = first_level(recording_, segmentation_, cycles_, scales_);
-    if (!level.lines_Hz.empty()) {
-      const HumLines hum{level.lines_Hz, scales_.time_begin_s};
-      cycles_ = cut_cycles(recording_, segmentation_, half_width_s(start_stiffness_, scales_), excluded_, hum);
-    }
+    if (!level.lines_Hz.empty()) cycles_ = cut({level.lines_Hz, scales_.time_begin_s});
     return fit_probe(spread_subset(cycles_, std::max<std::size_t>(kProbeCycles, 3 * level.terms)), level);
   }
 
@@ -135,11 +132,11 @@ class Fitter {
     if (!fit) return std::nullopt;
     start_ = fit->parameters.values;
     // Damping is free before levels are compared: a level a cycle takes up what a wrong zeta does to the troughs.
-    if (!std::isfinite(solve(*fit, {held_, false, true, kProbeIterations, kRough}))) return std::nullopt;
+    if (!std::isfinite(solve(*fit, {held_, false, kProbeIterations, kRough}))) return std::nullopt;
     const bool may_wander = reduced_chi2(*fit) > thresholds::kSuspectChi2;
     if (!level.per_cycle && probe.size() > level.terms && may_wander) {
       auto wandering = fit_from(probe, {true, 0, level.lines_Hz}, fit->parameters.values, kProbeIterations, kRough);
-      if (wandering && level_wanders(*wandering, *fit, held_)) fit = std::move(wandering);
+      if (wandering && level_wanders(*wandering, *fit)) fit = std::move(wandering);
     }
     if (!refuse_negative_damping(*fit, kRough)) return std::nullopt;
     return fit;
@@ -159,8 +156,7 @@ class Fitter {
       const Residuals residuals = without(residuals_of(recording_, middle), excluded_);
       const std::vector<double> lines_Hz = refine_hum(recording_, middle, residuals.value);
       if (is_same_hum(middle, lines_Hz)) break;
-      cycles_ = cut_cycles(recording_, segmentation_, half_width_s(start_stiffness_, scales_), excluded_,
-                           {lines_Hz, scales_.time_begin_s});
+      cycles_ = cut({lines_Hz, scales_.time_begin_s});
       std::optional<BlockFit> next = fit_middle(middle, lines_Hz);
       if (!next) break;
       middle = *std::move(next);
@@ -169,13 +165,13 @@ class Fitter {
   }
 
   /// The same cycles with a level each from little damping, where they explain more: troughs that lie on one level
-  /// while the peaks scatter look like slips with much damping, from which no fit finds back.
+  /// while the peaks scatter look like slips with much damping, from which the search does not return.
   [[nodiscard]] BlockFit or_wandering(BlockFit fit, double tolerance) const {
     const bool is_damped = !held_[kDamping] && fit.parameters.values(kDamping) > kMuchDamping;
     if (!is_damped || fit.level().per_cycle || fit.size() < kFewestWandering) return fit;
     const LevelModel level{true, 0, fit.level().lines_Hz};
     std::optional<BlockFit> wandering = fit_from(fit.set()->cycles(), level, start_, kMaxIterations, tolerance);
-    return wandering && level_wanders(*wandering, fit, held_) ? *std::move(wandering) : std::move(fit);
+    return wandering && level_wanders(*wandering, fit) ? *std::move(wandering) : std::move(fit);
   }
 
   /// Returns the fit with k that changes along the path. The result is empty where k is held, where a linear step gains
@@ -187,7 +183,7 @@ class Fitter {
     BlockFit all = fit.with_scales(scales);
     BlockFit some = all.with_fewer_cycles(kMiddleCycles);
     if (!(gain_by(kStiffnessDrift, some, held_) > thresholds::kTierPrice * reduced_chi2(some))) return std::nullopt;
-    if (!std::isfinite(solve(some, {held_, false, true, kMiddleIterations, kRough}))) return std::nullopt;
+    if (!std::isfinite(solve(some, {held_, false, kMiddleIterations, kRough}))) return std::nullopt;
     const Problem problem{{&some, 1}};
     const CoordinateMatrix covariance = jackknife_covariance(problem, normals_of(problem), select(some), held_);
     const double drift = some.parameters.values(kStiffnessDrift);
@@ -195,7 +191,7 @@ class Fitter {
     const double least = std::max(thresholds::kNegligible, thresholds::kSureSigmas * error) + change_by_level(some);
     if (!(std::abs(drift) > least)) return std::nullopt;
     all.start_at(some.parameters.values);
-    if (!std::isfinite(solve(all, {held_, false, true, kMaxIterations, kRough}))) return std::nullopt;
+    if (!std::isfinite(solve(all, {held_, false, kMaxIterations, kRough}))) return std::nullopt;
     return all;
   }
 
@@ -204,7 +200,7 @@ class Fitter {
                                                         const LevelModel& level) const {
     std::optional<BlockFit> fit = BlockFit::create(cycles, middles_s(segmentation_, cycles), scales_, level);
     if (!fit) return fit;
-    SolveOptions quick{held_, false, true, kQuickIterations, kRough};
+    SolveOptions quick{held_, false, kQuickIterations, kRough};
     quick.held[kDamping] = true;
     double best_cost = std::numeric_limits<double>::infinity();
     Parameters best;
@@ -228,7 +224,7 @@ class Fitter {
     std::optional<BlockFit> fit = BlockFit::create(std::move(cycles), std::move(middles), scales_, level);
     if (!fit) return fit;
     set_start(*fit, segmentation_, start);
-    if (!std::isfinite(solve(*fit, {held_, false, true, max_iterations, tolerance}))) return std::nullopt;
+    if (!std::isfinite(solve(*fit, {held_, false, max_iterations, tolerance}))) return std::nullopt;
     return fit;
   }
 
@@ -244,7 +240,7 @@ class Fitter {
     held_[kDamping] = true;
     // Start again from the features: the other parameters have followed the wrong zeta.
     set_start(fit, segmentation_, oscillator(start_(kLogStiffness), start_(kLogFrequency), 0.0));
-    return std::isfinite(solve(fit, {held_, false, true, kMaxIterations, tolerance}));
+    return std::isfinite(solve(fit, {held_, false, kMaxIterations, tolerance}));
   }
 
   /// Leaves out samples far from the fit and slips that it cannot explain, takes interference into the model, and
@@ -257,13 +253,13 @@ class Fitter {
       const std::vector<std::size_t> bad = unexplained_slips(fit);
       const std::vector<double> lines_Hz = find_hum(recording_, fit, std::move(residuals.value), outliers);
       if (outliers.empty() && censored.empty() && bad.empty() && lines_Hz.empty()) {
-        if (pass == 0) solve(fit, {held_, false, true, kMaxIterations, kFinal});  // it was only rough so far
+        if (pass == 0) solve(fit, {held_, false, kMaxIterations, kFinal});  // it was only rough so far
         break;
       }
       excluded_ = united(excluded_, united(outliers, censored));
       const bool is_settled = lines_Hz.empty() || is_same_hum(fit, lines_Hz);
-      std::optional<BlockFit> next = recut(std::move(fit), cut(), bad, lines_Hz);
-      if (!next || !std::isfinite(solve(*next, {held_, false, true, kMaxIterations, kFinal}))) return std::nullopt;
+      std::optional<BlockFit> next = recut(std::move(fit), bad, lines_Hz);
+      if (!next || !std::isfinite(solve(*next, {held_, false, kMaxIterations, kFinal}))) return std::nullopt;
       fit = std::move(*next);
       if (is_settled) break;
     }
@@ -278,14 +274,60 @@ class Fitter {
       std::optional<BlockFit> weighted = BlockFit::create(std::move(cycles), std::move(middles), scales_, fit.level());
       if (!weighted) return fit;
       weighted->parameters = fit.parameters;
-      if (!std::isfinite(solve(*weighted, {held_, false, true, kMaxIterations, kFinal}))) return fit;
+      if (!std::isfinite(solve(*weighted, {held_, false, kMaxIterations, kFinal}))) return fit;
       fit = *std::move(weighted);
     }
     return fit;
   }
 
-  [[nodiscard]] Cut cut() const {
-    return {recording_, segmentation_, half_width_s(start_stiffness_, scales_), excluded_};
+  /// Cut again without the slips `bad`, with these lines in the level, near the solution of `fit`, whose cycles make
+  /// room for the new ones. Empty where too few are left.
+  [[nodiscard]] std::optional<BlockFit> recut(BlockFit fit, const std::vector<std::size_t>& bad,
+                                              const std::vector<double>& lines_Hz) const {
+    const std::vector<double> hum_start = hum_at_other_frequencies(fit, lines_Hz);
+    const Parameters start = std::move(fit.parameters);
+    const Scales scales = fit.scales();
+    LevelModel level = fit.level();
+    std::vector<std::size_t> slips;
+    for (std::size_t i = 0; i < fit.size(); ++i) slips.push_back(fit.data(i).slip);
+    { const BlockFit released = std::move(fit); }
+    std::vector<CycleData> kept;
+    for (CycleData& cycle : cut({lines_Hz, scales.time_begin_s})) {
+      if (std::find(bad.begin(), bad.end(), cycle.slip) == bad.end()) {
+        kept.push_back(std::move(cycle));
+      } else if (!kept.empty()) {
+        kept.back().continuous_with_next = false;
+      }
+    }
+    level.lines_Hz = lines_Hz;
+    std::vector<double> middles = middles_s(segmentation_, kept);
+    std::optional<BlockFit> anew = BlockFit::create(std::move(kept), std::move(middles), scales, level);
+    if (!anew) return std::nullopt;
+    Parameters& parameters = anew->parameters;
+    parameters.values = start.values;
+    const auto before_lines = static_cast<std::ptrdiff_t>(level.terms);
+    std::copy_n(start.level.begin(), before_lines, parameters.level.begin());
+    std::copy(hum_start.begin(), hum_start.end(), parameters.level.begin() + before_lines);
+    std::size_t old = 0;
+    for (std::size_t i = 0; i < anew->size(); ++i) {
+      while (old + 1 < slips.size() && slips[old] < anew->data(i).slip) ++old;  // a last slip may be new
+      parameters.cycles[i] = start.cycles[old];
+    }
+    return anew;
+  }
+
+  /// Returns the fit with the scatter in its sticks computed without its hum.
+  [[nodiscard]] BlockFit with_hum_in_bins(BlockFit fit) const {
+    std::vector<CycleData> cycles = same_cycles_of(fit, cut(hum_of(recording_, fit)));
+    std::vector<double> middles = middles_s(segmentation_, cycles);
+    std::optional<BlockFit> same = BlockFit::create(std::move(cycles), std::move(middles), fit.scales(), fit.level());
+    if (!same || same->size() != fit.size()) return fit;
+    same->parameters = std::move(fit.parameters);
+    return *std::move(same);
+  }
+
+  [[nodiscard]] std::vector<CycleData> cut(const HumLines& hum = {}) const {
+    return cut_cycles(recording_, segmentation_, half_width_s(start_stiffness_, scales_), excluded_, hum);
   }
 
   const Recording& recording_;
@@ -319,9 +361,7 @@ namespace {
 /// Worse than the damped fit by twice what the tiers must differ by: joined ramps would make it worse still.
 bool is_lost(double loose_chi2, const DampedFit& damped) {
   constexpr double kLost = 20.0;
-  double damped_chi2 = 0.0;
-  for (const double sum : damped.blocks.sums_of_squares()) damped_chi2 += sum;
-  const double worse = (loose_chi2 - damped_chi2) / damped.uncertainty.chi2;
+  const double worse = (loose_chi2 - sum_of_squares(damped.blocks)) / damped.uncertainty.chi2;
   return effective_samples(damped) * std::log1p(worse) > kLost;
 }
 
@@ -342,14 +382,14 @@ std::optional<DampedFit> fit_undamped(const DampedFit& damped, bool may_lose) {
   bool lost = false;
   if (!is_near(damped)) {
     // From a zeta far below 0 the joined ramps hold the cycles where they are, at a false minimum: loose ones first.
-    SolveOptions rough{held, false, true};
+    SolveOptions rough{held, false};
     rough.tolerance = 0.1;
     const double loose_chi2 = solve(blocks, rough);
     if (!std::isfinite(loose_chi2)) return std::nullopt;
     lost = may_lose && is_lost(loose_chi2, damped);
   }
   const bool joined = damped.continuous && !lost;
-  if (!lost && !std::isfinite(solve(blocks, {held, joined, true}))) return std::nullopt;
+  if (!lost && !std::isfinite(solve(blocks, {held, joined}))) return std::nullopt;
   DampedFit result{std::move(blocks),   joined,          held, damped.refused_damping,
                    damped.half_width_s, damped.excluded, {},   damped.misfit};
   result.uncertainty = estimate_uncertainty(result.blocks, {held, joined});
@@ -358,14 +398,6 @@ std::optional<DampedFit> fit_undamped(const DampedFit& damped, bool may_lose) {
       from.parameters.values(kDamping) < 0.0 && result.uncertainty.noise > 2.0 * damped.uncertainty.noise;
   return is_false ? std::nullopt : std::optional(std::move(result));
 }
-
-namespace {
-
-std::vector<CycleData> cycles_of(const Cut& cut, const HumLines& hum) {
-  return cut_cycles(cut.recording, cut.segmentation, cut.half_width_s, cut.excluded, hum);
-}
-
-}  // namespace
 
 std::vector<CycleData> same_cycles_of(const BlockFit& fit, std::vector<CycleData> cut) {
   std::vector<CycleData> same;
@@ -379,55 +411,10 @@ std::vector<CycleData> same_cycles_of(const BlockFit& fit, std::vector<CycleData
   return same;
 }
 
-std::optional<BlockFit> recut(BlockFit fit, const Cut& cut, const std::vector<std::size_t>& bad,
-                              const std::vector<double>& lines_Hz) {
-  const std::vector<double> hum_start = hum_at_other_frequencies(fit, lines_Hz);
-  const Parameters start = std::move(fit.parameters);
-  const Scales scales = fit.scales();
-  LevelModel level = fit.level();
-  std::vector<std::size_t> slips;
-  for (std::size_t i = 0; i < fit.size(); ++i) slips.push_back(fit.data(i).slip);
-  { const BlockFit released = std::move(fit); }
-  std::vector<CycleData> kept;
-  for (CycleData& cycle : cycles_of(cut, {lines_Hz, scales.time_begin_s})) {
-    if (std::find(bad.begin(), bad.end(), cycle.slip) == bad.end()) {
-      kept.push_back(std::move(cycle));
-    } else if (!kept.empty()) {
-      kept.back().continuous_with_next = false;
-    }
-  }
-  level.lines_Hz = lines_Hz;
-  std::vector<double> middles = middles_s(cut.segmentation, kept);
-  std::optional<BlockFit> anew = BlockFit::create(std::move(kept), std::move(middles), scales, level);
-  if (!anew) return std::nullopt;
-  Parameters& parameters = anew->parameters;
-  parameters.values = start.values;
-  const auto before_lines = static_cast<std::ptrdiff_t>(level.terms);
-  std::copy_n(start.level.begin(), before_lines, parameters.level.begin());
-  std::copy(hum_start.begin(), hum_start.end(), parameters.level.begin() + before_lines);
-  std::size_t old = 0;
-  for (std::size_t i = 0; i < anew->size(); ++i) {
-    while (old + 1 < slips.size() && slips[old] < anew->data(i).slip) ++old;  // a last slip may be new
-    parameters.cycles[i] = start.cycles[old];
-  }
-  return anew;
-}
-
-BlockFit with_hum_in_bins(BlockFit fit, const Cut& cut) {
-  std::vector<CycleData> cycles = same_cycles_of(fit, cycles_of(cut, hum_of(cut.recording, fit)));
-  std::vector<double> middles = middles_s(cut.segmentation, cycles);
-  std::optional<BlockFit> same = BlockFit::create(std::move(cycles), std::move(middles), fit.scales(), fit.level());
-  if (!same || same->size() != fit.size()) return fit;
-  same->parameters = std::move(fit.parameters);
-  return *std::move(same);
-}
-
-bool level_wanders(const BlockFit& wandering, const BlockFit& polynomial, const Held& held) {
-  const Uncertainty rich = estimate_uncertainty(wandering, {held, false});
-  const Uncertainty poor = estimate_uncertainty(polynomial, {held, false});
+bool level_wanders(const BlockFit& wandering, const BlockFit& polynomial) {
   const auto extra = static_cast<double>(wandering.size() - polynomial.level().terms);
-  const double noise2 = std::pow(rich.noise / wandering.scales().noise, 2);
-  return (poor.chi2 - rich.chi2) / extra > thresholds::kWanderingRatio * noise2;
+  const double gain = sum_of_squares(polynomial) - sum_of_squares(wandering);
+  return gain / extra > thresholds::kWanderingRatio * reduced_chi2(wandering);
 }
 
 }  // namespace slipfit::fit

@@ -10,8 +10,8 @@
 
 namespace slipfit::fit {
 
-/// Asked once, before all of many cycles are fitted, with the fit of some of them: true ends the fit, which is then
-/// empty.
+/// Asked once, with a fit of the cycles, or of some of them before all of many are fitted: true ends the fit, which is
+/// then empty.
 using AbortPredicate = std::function<bool(const BlockFit& some)>;
 
 /// Returns the per-cycle block fit with all that real recordings require: several starts in zeta, a level that may
@@ -19,34 +19,18 @@ using AbortPredicate = std::function<bool(const BlockFit& some)>;
 /// result is empty where fewer than 3 cycles can be fitted, or where no start converges.
 std::optional<DampedFit> draft_damped(const FitInput& input, const AbortPredicate& should_abort = {});
 
-/// All cycles with no sample, no slip and no line looked for: how badly they fit, roughly.
+/// All cycles without searching for outliers, bad slips or interference: how badly they fit, roughly.
 std::optional<BlockFit> rough_fit(const FitInput& input);
 
 /// The same cycles and level with zeta held at 0, from the damped solution. Where it `may_lose` and has clearly lost to
 /// the damped fit, it stays rough and its ramps are not joined.
 std::optional<DampedFit> fit_undamped(const DampedFit& damped, bool may_lose);
 
-/// Says how the cycles of a recording are cut.
-struct Cut {
-  const Recording& recording;
-  const Segmentation& segmentation;
-  double half_width_s = 0.0;
-  const std::vector<std::size_t>& excluded;  ///< samples, in ascending order
-};
-
 /// Those of the cycles that the fit has, in order.
 std::vector<CycleData> same_cycles_of(const BlockFit& fit, std::vector<CycleData> cut);
 
-/// Cut again without the slips `bad`, with these lines in the level, near the solution of `fit`, whose cycles make room
-/// for the new ones. Empty where too few are left.
-std::optional<BlockFit> recut(BlockFit fit, const Cut& cut, const std::vector<std::size_t>& bad,
-                              const std::vector<double>& lines_Hz);
-
-/// Returns the fit with the scatter in its sticks computed without its hum.
-BlockFit with_hum_in_bins(BlockFit fit, const Cut& cut);
-
 /// Returns whether a level of its own in every cycle explains more than a polynomial of time does, by more than chance
 /// explains. The two are fits of the same cycles.
-bool level_wanders(const BlockFit& wandering, const BlockFit& polynomial, const Held& held);
+bool level_wanders(const BlockFit& wandering, const BlockFit& polynomial);
 
 }  // namespace slipfit::fit

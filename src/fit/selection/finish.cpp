@@ -36,7 +36,7 @@ DampedFit with_joined_ramps(DampedFit loose) {
   const double ramps = joined_ramps(loose.blocks);
   if (ramps < 1.0) return loose;
   DampedFit joined = loose;
-  if (!std::isfinite(solve(joined.blocks, {joined.held, true, true, kMostIterations, kFinishTolerance}))) return loose;
+  if (!std::isfinite(solve(joined.blocks, {joined.held, true, kMostIterations, kFinishTolerance}))) return loose;
   joined.continuous = true;
   joined.uncertainty = estimate_uncertainty(joined.blocks, {joined.held, true});
   if (!is_regular(joined.uncertainty, joined.held)) return loose;

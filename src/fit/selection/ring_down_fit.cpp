@@ -61,14 +61,11 @@ FreeMotion mean_of(const std::vector<FreeMotion>& motions) {
 
 /// Returns the fit with the errors of w_n and zeta, which are held at `motion`, in its covariance.
 std::optional<DampedFit> with_errors_of(const FreeMotion& motion, DampedFit fit) {
-  constexpr double kStep = 0.01;  // of ln w_n and zeta
-  const Coordinates here = coordinates_of(fit.blocks);
   MotionMoves moves;
   for (const Coordinate i : {kLogFrequency, kDamping}) {
-    BlockFit other = fit.blocks;
-    other.parameters.values(i) += kStep;
-    if (!std::isfinite(solve(other, {fit.held, fit.continuous, true}))) return std::nullopt;
-    moves.col(i - kLogFrequency) = (coordinates_of(other) - here) / kStep;
+    const std::optional<Coordinates> move = moves_by(fit, i);
+    if (!move) return std::nullopt;
+    moves.col(i - kLogFrequency) = *move;
   }
   fit.uncertainty.covariance = with_motion(fit.uncertainty.covariance, moves, motion);
   if (const auto average = average_of(fit.blocks, fit.uncertainty.covariance)) fit.average = average;
@@ -104,9 +101,9 @@ std::optional<RingEvidence> ring_evidence(std::span<const SweepRecording> record
   const FreeMotion mean = mean_of(rings);
   FreeMotion slips = motion_of_slips(outcome.values, outcome.spread.with_scatter(), off);
   if (solution.held[kDamping]) {
-    const auto beside = with_held(solution, kDamping, mean.values(1) - outcome.values(kDamping));
-    if (!beside) return std::nullopt;
-    const SweepOutcome given = outcome_of(data, *beside);
+    const auto at_ring_damping = with_held(solution, kDamping, mean.values(1) - outcome.values(kDamping));
+    if (!at_ring_damping) return std::nullopt;
+    const SweepOutcome given = outcome_of(data, *at_ring_damping);
     slips = motion_of_slips(given.values, given.spread.with_scatter(), off);
     slips.covariance(1, 1) = 1.0 / 12.0;  // anything between 0 and 1 is as likely
   }
@@ -132,7 +129,7 @@ std::optional<DampedFit> held_at(const FreeMotion& motion, const FitInput& input
   fit.blocks.parameters.values(kLogFrequency) = motion.values(0);
   fit.blocks.parameters.values(kDamping) = motion.values(1);
   fit.continuous = false;
-  if (!std::isfinite(solve(fit.blocks, {fit.held, false, true}))) return std::nullopt;
+  if (!std::isfinite(solve(fit.blocks, {fit.held, false}))) return std::nullopt;
   const bool averaged = fit.average.has_value();
   std::optional<DampedFit> next = finish_settled(input, std::move(fit));
   if (!next) return next;

@@ -197,7 +197,7 @@ std::optional<DampedFit> with_free_length(const Quality& quality, DampedFit fit)
   RiseAfterSlip rise = moved(*fit.blocks.level().reloading, fit.blocks);
   rise.is_free = true;
   fit.blocks = with_slips(fit.blocks, std::move(rise));
-  if (!std::isfinite(solve(fit.blocks, {fit.held, false, true}))) return std::nullopt;
+  if (!std::isfinite(solve(fit.blocks, {fit.held, false}))) return std::nullopt;
   return with_uncertainty(std::move(fit), quality);
 }
 

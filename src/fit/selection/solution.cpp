@@ -18,8 +18,12 @@ Recording with_average(const Recording& recording, double average_s) {
       .value();
 }
 
-double sensor_time_error(const CoordinateMatrix& covariance) {
-  return std::sqrt(std::max(0.0, covariance(kSensorTime, kSensorTime)));
+std::optional<Coordinates> moves_by(const DampedFit& fit, Coordinate coordinate) {
+  constexpr double kMove = 0.01;  // of ln w_n or zeta
+  BlockFit other = fit.blocks;
+  other.parameters.values(coordinate) += kMove;
+  if (!std::isfinite(solve(other, {fit.held, fit.continuous}))) return std::nullopt;
+  return (coordinates_of(other) - coordinates_of(fit.blocks)) / kMove;
 }
 
 CoordinateMatrix with_unknown_shape(const CoordinateMatrix& covariance, const BlockFit& fit) {
@@ -35,7 +39,8 @@ std::optional<FittedAverage> average_of(const BlockFit& fit, const CoordinateMat
   if (scales.free_time != FreeTime::Average) return std::nullopt;
   const double unit_s2 = scales.sensor_time_unit_s * scales.sensor_time_unit_s;
   const double average_s = fit.sensor().average_s;
-  return FittedAverage{average_s, 0.5 * unit_s2 * sensor_time_error(covariance) / average_s};
+  const double error = std::sqrt(std::max(0.0, covariance(kSensorTime, kSensorTime)));
+  return FittedAverage{average_s, 0.5 * unit_s2 * error / average_s};
 }
 
 DampedFit with_average_error(DampedFit fit) {

@@ -59,8 +59,8 @@ struct DampedFit {
   std::string law_caveat{};  ///< why the friction law was not the data's choice; empty: it was
 };
 
-/// Standard error of the coordinate kSensorTime.
-double sensor_time_error(const CoordinateMatrix& covariance);
+/// Returns the move of the coordinates per unit of one that is held; empty where the fit has no solution there.
+std::optional<Coordinates> moves_by(const DampedFit& fit, Coordinate coordinate);
 
 /// The covariance with an error for the unknown shape of the instrument's impulse response: it moves the fitted time of
 /// the sensor, and every coordinate that correlates with it.

@@ -5,14 +5,11 @@
 #include <utility>
 
 #include "core/thresholds.hpp"
-#include "fit/problem/solve.hpp"
 #include "fit/selection/finish.hpp"
 #include "fit/selection/rise_term.hpp"
 
 namespace slipfit::fit {
 namespace {
-
-constexpr double kStep = 0.01;  // of ln w_n
 
 double fitted_stiffness(const DampedFit& fit) {
   return std::exp(fit.blocks.parameters.values(kLogStiffness));
@@ -22,14 +19,6 @@ double fitted_stiffness(const DampedFit& fit) {
 double relative_mass_error(const Conditions& conditions) {
   const auto& error_kg = conditions.mass_standard_error_kg;
   return error_kg ? *error_kg / *conditions.mass_kg : thresholds::kUsualMassError;
-}
-
-/// Returns the move of the coordinates per unit of ln w_n, which is held; empty where the fit has no solution there.
-std::optional<Coordinates> by_log_frequency(const DampedFit& fit) {
-  BlockFit other = fit.blocks;
-  other.parameters.values(kLogFrequency) += kStep;
-  if (!std::isfinite(solve(other, {fit.held, fit.continuous, true}))) return std::nullopt;
-  return (coordinates_of(other) - coordinates_of(fit.blocks)) / kStep;
 }
 
 }  // namespace
@@ -81,7 +70,7 @@ DampedFit fit_with_mass(const FitInput& input, DampedFit fit) {
     stiffness = fitted_stiffness(*by_mass);
   }
   const bool contradicts = by_mass->uncertainty.noise > thresholds::kContradictedMass * fit.uncertainty.noise;
-  const std::optional<Coordinates> move = by_log_frequency(*by_mass);
+  const std::optional<Coordinates> move = moves_by(*by_mass, kLogFrequency);
   if (contradicts || !move) return fit;
   by_mass = finish_fit(averaged, *std::move(by_mass));
   if (!by_mass) return fit;

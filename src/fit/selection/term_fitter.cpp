@@ -20,6 +20,9 @@
 
 namespace slipfit::fit {
 
+namespace {
+
+/// Takes the solution of other fits of the same slips, of a neighbour where one is not among them.
 void carry_over(const BlockFit& from, BlockFit& to) {
   to.start_at(from.parameters.values);
   to.parameters.level = from.parameters.level;
@@ -30,17 +33,7 @@ void carry_over(const BlockFit& from, BlockFit& to) {
   }
 }
 
-double sum_of_squares(const BlockFit& fit) {
-  double sum = 0.0;
-  for (const double of_cycle : fit.sums_of_squares()) sum += of_cycle;
-  return sum;
-}
-
-std::size_t residuals_in(const BlockFit& fit) {
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < fit.size(); ++i) count += fit.data(i).residuals();
-  return count;
-}
+}  // namespace
 
 BlockFit carried_to(const std::shared_ptr<const CycleSet>& set, const BlockFit& from) {
   BlockFit to(set, from.scales());
@@ -58,10 +51,10 @@ BlockFit with_free_time(const BlockFit& fit, FreeTime time) {
 
 double gain_on_same_samples(const DampedFit& rich, const DampedFit& poor) {
   BlockFit again = carried_to(rich.blocks.set(), poor.blocks);
-  if (!std::isfinite(solve(again, {poor.held, rich.continuous, true}))) return 0.0;
+  if (!std::isfinite(solve(again, {poor.held, rich.continuous}))) return 0.0;
   // What scatters within the bins of the sticks is in neither sum.
   const double independent =
-      effective_samples(rich) * static_cast<double>(residuals_in(rich.blocks)) / rich.uncertainty.samples;
+      effective_samples(rich) * static_cast<double>(rich.blocks.residuals()) / rich.uncertainty.samples;
   return independent * std::log(sum_of_squares(again) / sum_of_squares(rich.blocks)) - 2.0;
 }
 
@@ -81,7 +74,7 @@ constexpr double kSlip2 = 5.6;  // W^2 of an average that draws the fall out as 
 constexpr std::size_t kFewCycles = 16;
 constexpr std::size_t kLeastEnough = 40;
 constexpr std::size_t kMostEnough = 64;
-constexpr int kOwnIterations = 6;    // of onsets and forces by themselves
+constexpr int kOwnIterations = 6;    // of onsets, forces and levels alone
 constexpr int kFirstIterations = 3;  // that show which start of an average is best
 constexpr int kDraftIterations = 10;
 constexpr int kCompareIterations = 20;
@@ -89,7 +82,7 @@ constexpr int kFullIterations = 60;
 constexpr int kRiseSteps = 2;            // of a draft, each after the slips of the one before
 constexpr double kDraftTolerance = 0.1;  // SolveOptions::tolerance
 constexpr double kDescentTolerance = 1e-3;
-constexpr double kRoughTolerance = 1e-4;  // a tenth of an error decides nothing
+constexpr double kComparedTolerance = 1e-4;  // sharper than a fit needs: differences of two sums are compared
 constexpr double kFinalTolerance = 1e-3;
 /// Steps gain little along the valley of D_c or W, zeta and w_n: what ends other fits leaves them an error off.
 constexpr double kValleyTolerance = 1e-7;
@@ -145,10 +138,10 @@ std::optional<BlockFit> with_typical_cycles(const BlockFit& fit, const Segmentat
   return typical;
 }
 
-/// Onsets and forces of the cycles by themselves; false where a slip has no solution. A search that leaves some cycles
-/// far from their samples is repeated from what is typical of the others.
+/// Onsets, forces and levels with rig and contact held; false where a slip has no solution. A search that leaves some
+/// cycles far from their samples is repeated from what is typical of the others.
 bool solve_own(BlockFit& blocks, const Segmentation& segmentation) {
-  SolveOptions options{{}, false, true, kOwnIterations, kDraftTolerance};
+  SolveOptions options{{}, false, kOwnIterations, kDraftTolerance};
   options.held.fill(true);
   const double sum = solve(blocks, options);
   if (!std::isfinite(sum)) return false;
@@ -166,7 +159,7 @@ std::optional<Minimum> solved_from(BlockFit blocks, const SolveOptions& options)
 /// Solves to the accuracy that comparing terms needs. A rise after slips is moved to the slips of the solution. Empty
 /// where a slip has no solution.
 std::optional<Minimum> roughly_settled(BlockFit start, const Held& held, double tolerance) {
-  const SolveOptions options{held, false, true, kCompareIterations, tolerance, true};
+  const SolveOptions options{held, false, kCompareIterations, tolerance, true};
   std::optional<Minimum> minimum = solved_from(std::move(start), options);
   for (int i = 0; i < kRiseSteps && minimum && minimum->blocks.level().reloading; ++i) {
     minimum = solved_from(with_rise_after(minimum->blocks), options);
@@ -177,8 +170,8 @@ std::optional<Minimum> roughly_settled(BlockFit start, const Held& held, double 
 /// The solution but for its rise, which settle_rise settles.
 std::optional<BlockFit> settled(BlockFit blocks, const Held& held) {
   const bool has_valley = blocks.scales().law == FrictionLaw::Weakening || blocks.solves_for(kSensorTime);
-  std::optional<Minimum> minimum = solved_from(
-      std::move(blocks), {held, false, true, kFullIterations, has_valley ? kValleyTolerance : kFinalTolerance});
+  std::optional<Minimum> minimum =
+      solved_from(std::move(blocks), {held, false, kFullIterations, has_valley ? kValleyTolerance : kFinalTolerance});
   return minimum ? std::optional(std::move(minimum->blocks)) : std::nullopt;
 }
 
@@ -242,7 +235,7 @@ Minima TermFitter::minima(Terms terms, bool is_asked) const {
 
 Minimum TermFitter::plain() const {
   BlockFit some = carried_to(enough_, plain_.blocks);
-  const double sum = solve(some, {plain_.held, false, true, kCompareIterations, kRoughTolerance});
+  const double sum = solve(some, {plain_.held, false, kCompareIterations, kComparedTolerance});
   return {std::move(some), sum};
 }
 
@@ -260,7 +253,7 @@ std::optional<Minimum> TermFitter::behind_filter(const BlockFit& from, std::span
     BlockFit blocks = started(BlockFit(few_, scales), from.parameters.values);
     if (!solve_own(blocks, input_.segmentation)) continue;
     std::optional<Minimum> draft =
-        solved_from(std::move(blocks), {held_, false, true, kDraftIterations, kDraftTolerance, true});
+        solved_from(std::move(blocks), {held_, false, kDraftIterations, kDraftTolerance, true});
     if (draft && (!best || explains_more(*draft, *best))) best = std::move(draft);
   }
   if (best) best = roughly_settled(std::move(best->blocks), held_, kDescentTolerance);
@@ -398,12 +391,11 @@ std::optional<Minimum> TermFitter::begun(Terms terms, const Start& start, double
   blocks.parameters.values(kReloadLength) += std::log(rise_length);
   if (terms.rise) blocks = with_rise_over(start.length_m, input_, plain_.blocks, blocks);
   if (!solve_own(blocks, input_.segmentation)) return std::nullopt;
-  const double sum = solve(blocks, {held_, false, true, kFirstIterations, kDraftTolerance, true});
-  return std::isfinite(sum) ? std::optional(Minimum{std::move(blocks), sum}) : std::nullopt;
+  return solved_from(std::move(blocks), {held_, false, kFirstIterations, kDraftTolerance, true});
 }
 
 std::optional<Minimum> TermFitter::drafted(Terms terms, Minimum begun) const {
-  const SolveOptions options{held_, false, true, kDraftIterations, kDraftTolerance, true};
+  const SolveOptions options{held_, false, kDraftIterations, kDraftTolerance, true};
   auto& [blocks, sum] = begun;
   sum = solve(blocks, options);
   for (int i = 0; i < kRiseSteps && plain_.blocks.level().reloading && std::isfinite(sum); ++i) {
@@ -444,7 +436,7 @@ Minimum TermFitter::descended(Minimum draft) const {
 
 std::optional<Minimum> TermFitter::solved(const Cycles& cycles, const BlockFit& near) const {
   if (cycles->cycles().size() == near.size()) {
-    return roughly_settled(carried_to(cycles, near), held_, kRoughTolerance);
+    return roughly_settled(carried_to(cycles, near), held_, kComparedTolerance);
   }
   Scales scales = near.scales();
   scales.sensor_average_s = near.sensor().average_s;
@@ -452,7 +444,7 @@ std::optional<Minimum> TermFitter::solved(const Cycles& cycles, const BlockFit& 
   BlockFit blocks = started(BlockFit(cycles, scales).with_level(near.level(), scales), near.parameters.values);
   blocks.parameters.level = near.parameters.level;
   if (!solve_own(blocks, input_.segmentation)) return std::nullopt;
-  return roughly_settled(std::move(blocks), held_, kRoughTolerance);
+  return roughly_settled(std::move(blocks), held_, kComparedTolerance);
 }
 
 bool TermFitter::has_slips_of_its_own(const BlockFit& fit) const {
@@ -481,8 +473,8 @@ BlockFit TermFitter::with_poorest_level(BlockFit wandering) const {
   level.reloading = wandering.level().reloading;
   BlockFit polynomial = started(wandering.with_level(std::move(level), scales), wandering.parameters.values);
   polynomial.parameters.values = wandering.parameters.values;
-  std::optional<Minimum> settled = roughly_settled(std::move(polynomial), held_, kRoughTolerance);
-  const bool is_enough = settled && !level_wanders(wandering, settled->blocks, held_);
+  std::optional<Minimum> settled = roughly_settled(std::move(polynomial), held_, kComparedTolerance);
+  const bool is_enough = settled && !level_wanders(wandering, settled->blocks);
   return is_enough ? std::move(settled->blocks) : std::move(wandering);
 }
 

@@ -172,17 +172,18 @@ Candidate judged_both(const Both& both, const DampedFit& single, double before) 
   return candidate;
 }
 
-/// Friction that weakens, seen through an average, where this explains more than either of the two.
+/// Friction that weakens, seen through an average, where this explains more than either of the two. `missed`: the
+/// stacked residual of `coulomb`.
 WeakeningTrial with_both(WeakeningTrial trial, const FitInput& input, const TermFitter& fitter,
-                         const DampedFit& coulomb) {
+                         const DampedFit& coulomb, const StackedResidual& missed) {
   if (input.recording.conditions().sensor_average_s) return trial;
   const DampedFit& single = trial.candidate.chosen ? *trial.fit : coulomb;
-  const StackedResidual before = stacked_residual(single.blocks, coulomb.blocks);
+  const StackedResidual before = trial.candidate.chosen ? stacked_residual(single.blocks, coulomb.blocks) : missed;
   if (!coulomb.average && before.size < before.by_chance) return trial;
   std::optional<Both> both = best_of_both(input, fitter, single, before.size);
   if (!both) return trial;
   Candidate candidate = judged_both(*both, single, before.size);
-  if (both->is_sure && candidate.chosen) return {std::move(both->fit), std::move(candidate), {}, {}, std::nullopt};
+  if (both->is_sure && candidate.chosen) return {std::move(both->fit), std::move(candidate)};
   // A stated mass determines w_n, which the rival does not know of.
   if (!coulomb.mass_gives_frequency && both->gain > -thresholds::kTierPrice) {
     for (const DampedFit* rival : {&both->fit, both->other ? &*both->other : nullptr}) {
@@ -242,30 +243,29 @@ bool may_weaken(const FitInput& input, const DampedFit& coulomb) {
 }
 
 WeakeningTrial try_weakening(const FitInput& input, const DampedFit& coulomb, std::optional<Tier> forced) {
-  WeakeningTrial trial{std::nullopt, {Tier::Weakening, 4, std::nullopt, std::nullopt, false, {}}, {}, {}, std::nullopt};
+  WeakeningTrial trial{std::nullopt, {Tier::Weakening, 4, std::nullopt, std::nullopt, false, {}}};
   trial.candidate.reason = hindrance(input, coulomb);
   if (!trial.candidate.reason.empty()) return trial;
   const std::optional<TermFitter> fitter = TermFitter::create(input, coulomb);
-  const double missed = stacked_residual(coulomb.blocks, coulomb.blocks).size;
-  if (fitter) trial.fit = fit_weakening(input, *fitter, coulomb, missed, forced == Tier::Weakening);
+  const StackedResidual missed = stacked_residual(coulomb.blocks, coulomb.blocks);
+  if (fitter) trial.fit = fit_weakening(input, *fitter, coulomb, missed.size, forced == Tier::Weakening);
   if (trial.fit) {
     const double effective = effective_samples(*trial.fit);
     trial.candidate = candidate_of(*trial.fit, Tier::Weakening, 4, effective);
     const double gain = gain_on_same_samples(*trial.fit, coulomb) + (coulomb.average ? 2.0 : 0.0);
-    trial.candidate = judged(std::move(trial.candidate), *trial.fit, coulomb, gain, missed);
+    trial.candidate = judged(std::move(trial.candidate), *trial.fit, coulomb, gain, missed.size);
     if (coulomb.average && !trial.candidate.chosen && gain > -thresholds::kTierPrice) {
       trial.average_caveat = fmt::format(
           "friction that weakens over a slip distance of {:.2g} um explains the slips as well as the average of the "
           "sensor: the data cannot separate the two",
           1e6 * slip_distance_m(*trial.fit));
-      trial.warning = Warning{"samples_averaged", trial.average_caveat};
       trial.rivals.push_back(*trial.fit);
     }
   } else {
     trial.candidate.reason =
         "no slip distance between 0 and (F_s - F_k) / k halves what the slips of Coulomb friction miss";
   }
-  if (fitter) trial = with_both(std::move(trial), input, *fitter, coulomb);
+  if (fitter) trial = with_both(std::move(trial), input, *fitter, coulomb, missed);
   // Slips that are no damped oscillation under this law determine nothing that a filter could explain otherwise.
   const bool may_be_filtered = trial.candidate.chosen && !trial.fit->refused_damping;
   return may_be_filtered ? compared_with_filter(std::move(trial), input, coulomb) : std::move(trial);

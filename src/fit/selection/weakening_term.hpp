@@ -16,7 +16,6 @@ struct WeakeningTrial {
   Candidate candidate;
   std::string average_caveat{};     ///< of the fit that stays where this is not chosen: DampedFit::average_caveat
   std::vector<DampedFit> rivals{};  ///< of the fit that stays where this is not chosen: not ruled out
-  std::optional<Warning> warning;   ///< an average of the sensor explains the slips as well
 };
 
 /// `coulomb`: the fit of the same recording under Coulomb friction. `forced`: a tier that the user asks for; this one

@@ -42,7 +42,7 @@ double residual_freedom(const SweepSolution& solution) {
 /// Solves from the solution's parameters on. Returns chi2, infinity where they are outside the model.
 double solve(SweepSolution& solution, const Held& held, const Accuracy& accuracy) {
   return solve_together(solution.recordings, solution.sweep,
-                        {held, false, true, accuracy.most_iterations, accuracy.tolerance});
+                        {held, false, accuracy.most_iterations, accuracy.tolerance});
 }
 
 SweepSolution moved_by(SweepSolution solution, const NewtonStep& step) {
