@@ -11,7 +11,7 @@ namespace slipfit::model {
 template <class Number>
 struct AgeingLawOf {
   Number difference_N;
-  Number rate_N;  ///< > 0
+  Number rate_N;  ///< below 0: static friction falls with the stick time
   double reference_s;
   Number cutoff_s;  ///< >= 0
 

@@ -125,7 +125,7 @@ class RelaxingSlipOf {
   bool resticks_ = false;
   End end_{};
   std::vector<SlipPart> parts_;    ///< of the slip
-  std::vector<Column> integrals_;  ///< from the onset to the begin of each part, and to the end
+  std::vector<Column> integrals_;  ///< from the onset to the start of each part, and to the end
 };
 
 using RelaxingSlip = RelaxingSlipOf<ceres::Jet<double, static_cast<int>(kScaledParameters)>>;

@@ -4,7 +4,7 @@
 
 namespace slipfit::model {
 
-/// Stick over which the force makes good a drop where it rises more steeply after a slip: x of
+/// Stick over which the force recovers a drop where it rises more steeply after a slip: x of
 /// x + rise (1 - exp(-x / length)) = drop, all in metres, rise that of the force over the stiffness. docs/model.md (25)
 /// drop > 0, rise >= 0, length > 0. Numbers, or jets of them: one Newton step from the solution gives the derivatives.
 template <class Number>

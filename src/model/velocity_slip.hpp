@@ -129,7 +129,7 @@ inline double time_at_level(const Series& series, double level, double low, doub
   return time;
 }
 
-/// The instant at which the speed is `level`, which lies between the begin of the last step and `last` in it.
+/// The instant at which the speed is `level`, which lies between the start of the last step and `last` in it.
 template <bool kWithGradient>
 SlipNode node_at_speed(const SlipWalker<kWithGradient>& walker, double level, const SlipNode& last) {
   SlipNode node = walker.inside(time_at_level(walker.series.v, level, 0.0, last.tau - walker.from.tau));
@@ -284,7 +284,7 @@ class VelocityTrack {
   [[nodiscard]] double tau_end() const { return end_.tau; }
   /// The parts of the slip, of what `at` or `transmitted_at` gives.
   [[nodiscard]] std::vector<SlipPart> parts(bool transmitted) const;
-  /// The begin of the part in which the slip is fastest at its begin.
+  /// The start of the part in which the slip is fastest at its start.
   [[nodiscard]] double fastest_tau() const;
   /// After the slip z = value + tau.
   [[nodiscard]] const TrackValue& after() const { return after_; }
@@ -293,7 +293,7 @@ class VelocityTrack {
  private:
   struct Step {
     double begin = 0.0;
-    double integral = 0.0;            ///< of s from the onset to the begin
+    double integral = 0.0;            ///< of s from the onset to the start
     ScaledGradient integral_of_ds{};  ///< of its derivatives
     SlipSeries<true> series;
   };

@@ -81,7 +81,7 @@ fit::RiseAfterSlip two_slips() {
 
 }  // namespace
 
-TEST_CASE("the stick that makes good a drop is shorter by the rise after the slip") {
+TEST_CASE("the stick that recovers a drop is shorter by the rise after the slip") {
   const double drop_m = GENERATE(1e-5, 3e-4, 2e-3);
   const double rise_m = GENERATE(1e-6, 1e-4, 1e-3);
   CAPTURE(drop_m, rise_m);

@@ -188,7 +188,7 @@ TEST_CASE("a sweep names the recording that is not like the others, and one that
   CHECK_THAT(message(analyze_sweep(twice).warnings, "recording_repeated"), Catch::Contains("'again'"));
 }
 
-TEST_CASE("a stiffness that goes with the speed is the fault of no recording") {
+TEST_CASE("a stiffness that varies with driving speed is the fault of no recording") {
   test::SpeedSweep truth;
   truth.f1_N = 0.0;
   std::vector<SweepEntry> entries;

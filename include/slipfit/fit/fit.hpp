@@ -10,7 +10,8 @@
 
 namespace slipfit {
 
-/// Fits every tier to the cycles and chooses one. The result is empty if fewer than 3 cycles can be fitted.
+/// Fits the tiers that one recording can show to the cycles and chooses one. The result is empty if fewer than 3 cycles
+/// can be fitted or no search finds a solution.
 std::optional<FitResult> fit_recording(const Recording& recording, const Quality& quality,
                                        const Segmentation& segmentation, const FitOptions& options = {});
 

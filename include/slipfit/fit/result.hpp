@@ -13,7 +13,7 @@
 
 namespace slipfit {
 
-/// Models in order of complexity; each adds one idea to the previous one.
+/// Models of the slips. Each adds one idea to one before it: Velocity and Weakening to Damped.
 enum class Tier { Sawtooth, Undamped, Damped, Velocity, Weakening };
 
 /// A cycle in the table `--cycles`: as detected, and as fitted if the fit uses it. Forces are in the unit of the
@@ -29,7 +29,7 @@ struct Cycle {
   std::optional<double> onset_force;  ///< spring force at the start of slip, F_s - c V
   std::optional<double> level_force;  ///< kinetic level F_k of this cycle
   std::optional<double> residual_rms;
-  std::optional<double> recovery_s;  ///< slip and the stick that makes good its drop: the period that it causes
+  std::optional<double> recovery_s;  ///< slip and the stick that recovers its drop: the period that it causes
   bool selected = true;              ///< for the fit; false: one of more than it needs
 };
 

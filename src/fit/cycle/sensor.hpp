@@ -72,7 +72,7 @@ class FilterResponse {
     Complex kappa;  ///< in units of w_n
     Complex share;  ///< contains the factor 2 of a pair; the real parts of all add up to 1
   };
-  /// A pole, and what it shows at the begin of each part and at the end of the slip.
+  /// A pole, and what it shows at the start of each part and at the end of the slip.
   struct Channel {
     Pole pole;
     std::vector<Response> begin;

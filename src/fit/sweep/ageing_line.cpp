@@ -210,7 +210,7 @@ double quantile_of(const AgeingCutoff& cutoff, double part) {
   return cutoff.values(i);
 }
 
-/// Ageing without a cut-off is left behind by more than chance: by Student's t with the recordings' own degrees of
+/// Ageing without a cut-off is rejected: by Student's t with the recordings' own degrees of
 /// freedom even where they lie on the line within their errors, since few may do so by chance.
 bool is_excluded(double gain, double freedom) {
   const double least = t_quantile(freedom, 1.0 - thresholds::kCutoffChance);

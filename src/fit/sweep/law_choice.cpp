@@ -71,7 +71,7 @@ bool allows_damping(const SweepOutcome& outcome) {
   return outcome.solution.held[kDamping] || zeta.a + intervals.quantile(zeta) * intervals.standard_error(zeta) > 0.0;
 }
 
-/// Under Coulomb friction; with k that goes with the speed where recordings left out are predicted better so.
+/// Under Coulomb friction; with k that varies with driving speed where recordings left out are predicted better so.
 SweepOutcome coulomb_outcome(const SweepData& data, const SweepFits& fits) {
   SweepOutcome same = outcome_of(data, *fits.coulomb);
   if (!fits.growing) return same;

@@ -30,12 +30,12 @@ struct ChosenLaw {
 };
 
 /// The law by chance; where residuals are larger than the noise, more parameters fit the model's error as well, and it
-/// is the one that predicts recordings left out better (left_out_error). So is k that goes with the speed. `tier`:
-/// asked for; `speeds`: speed_ratio().
+/// is the one that predicts recordings left out better (left_out_error). So is k that varies with driving speed.
+/// `tier`: asked for; `speeds`: speed_ratio().
 ChosenLaw choose_law(const SweepData& data, const SweepFits& fits, std::optional<Tier> tier, double speeds);
 
 /// Returns the recordings with a spring that relaxes (docs/model.md section 10) where that explains them better than
-/// sticks that are straight or rise over a displacement, and than k that varies with the speed; otherwise the
+/// sticks that are straight or rise over a displacement, and than k that varies with driving speed; otherwise the
 /// recordings are returned as they are. The time of relaxation is the same at all speeds.
 SweepData with_relaxation(SweepData data, std::span<const SweepRecording> recordings, const HeldParameters& held);
 

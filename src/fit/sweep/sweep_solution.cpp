@@ -22,7 +22,8 @@ namespace slipfit::fit {
 namespace {
 
 constexpr double kSlowestRate = 0.3;  // alpha v_c with which the search for another law begins
-/// Sums of squares to a hundredth of what a parameter gains by chance; what creeps on does not explain the slips.
+/// Sums of squares to a hundredth of what a parameter gains by chance; slow convergence means that the model does not
+/// explain the slips.
 constexpr Accuracy kCompared{1e-2, 20};
 constexpr Accuracy kRoughly{0.1, 10};
 

@@ -26,7 +26,7 @@ struct SweepSolution {
   [[nodiscard]] const BlockFit* with_sensor_time() const;
   /// Returns the speeds of the recordings, in their order.
   [[nodiscard]] std::vector<double> speeds_m_per_s() const;
-  /// At least `fewest` recordings at speeds that are far enough apart to show what goes with the speed.
+  /// At least `fewest` recordings at speeds that are far enough apart to show what varies with driving speed.
   [[nodiscard]] bool can_show_trend(std::size_t fewest = thresholds::kTrendRecordings) const;
   [[nodiscard]] const Population& population(std::size_t recording) const {
     return *recordings[recording].scales().population;
@@ -54,7 +54,7 @@ std::optional<SweepSolution> with_rate(const SweepSolution& solution, double rat
 /// The same fit with another law of kinetic friction, started from the solution.
 std::optional<SweepSolution> with_law(const SweepSolution& solution, FrictionLaw law);
 
-/// The solution with k that goes with the speed as V^p, p free, moved to its minimum with these coordinates held.
+/// The solution with k that varies with driving speed as V^p, p free, moved to its minimum with these coordinates held.
 std::optional<SweepSolution> with_exponent(SweepSolution solution, const Held& held);
 
 /// The same fit with a coordinate that is held elsewhere.
@@ -77,8 +77,8 @@ std::optional<NormalSolution> leave_out(const NormalSolution& all, std::size_t r
 struct SweepFits {
   SweepSolution velocity;                ///< near enough to its minimum to compare sums of squares: see settled
   std::optional<SweepSolution> coulomb;  ///< sharing at most what velocity does; empty: it has no minimum
-  /// Holds the same fit as `coulomb`, with k that depends on the speed; empty where one k of all explains the
-  /// recordings, or too few show it.
+  /// Holds the fit under Coulomb friction with k that varies with driving speed, which may share more than `coulomb`
+  /// does; empty where one k of all explains the recordings, or too few show it.
   std::optional<SweepSolution> growing{};
   double coulomb_chi2 = 0.0;      ///< with the shares of velocity
   double p_value = 0.0;           ///< that Coulomb friction with these gives such a difference by chance
