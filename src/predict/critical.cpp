@@ -271,8 +271,9 @@ double end_of_stick_slip_m_per_s(const ModelEstimate& model, double sharp) {
   if (!range) return 0.0;
   const auto [slowest, fastest] = *range;
   if (sticks_at(model, fastest)) return HUGE_VAL;
-  // Friction that depends on the speed may end stick-slip, and let it begin again at higher speeds.
-  const double step = model.speed_dependence ? kSearchStep : fastest / slowest;
+  // Friction that depends on the speed, or falls with the time at rest, lets stick-slip begin at some speed.
+  const bool may_begin = model.speed_dependence || (model.ageing && model.ageing->rate_N < 0.0);
+  const double step = may_begin ? kSearchStep : fastest / slowest;
   double slides = fastest;
   while (!sticks_at(model, slides / step)) {
     slides /= step;

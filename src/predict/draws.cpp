@@ -141,7 +141,7 @@ bool is_model(const ModelEstimate& model) {
   const auto is_in_range = [&model](ParameterId id) {
     const double* const value = model.find(id);
     if (value == nullptr) return true;
-    const bool is_positive = enters_as_logarithm(id) || id == ParameterId::Ageing || id == ParameterId::ReloadForce;
+    const bool is_positive = enters_as_logarithm(id) || id == ParameterId::ReloadForce;
     const Range& range = info(id).range;
     return std::isfinite(*value) && *value >= range.low && *value <= range.high && (!is_positive || *value > 0.0);
   };
@@ -156,7 +156,9 @@ std::optional<ModelEstimate> moved_model(const ModelEstimate& model, const Vecto
     if (value == nullptr) continue;
     *value = moved(kModelParameters[i], *value, step(static_cast<Index>(i)));
   }
-  return is_model(other) ? std::optional(other) : std::nullopt;
+  // The sign of ageing says whether stick-slip ends or begins with speed: one model has one of these.
+  const bool ages_alike = !model.ageing || other.ageing->rate_N * model.ageing->rate_N > 0.0;
+  return ages_alike && is_model(other) ? std::optional(other) : std::nullopt;
 }
 
 /// Normal numbers, a row for each value of a model: every row has the same ones, evenly spread, in another order.

@@ -1,7 +1,10 @@
 #include "slipfit/predict/plan.hpp"
 
 #include <ceres/jet.h>
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -159,7 +162,14 @@ struct NamedJet {
   Jet value;
 };
 
-/// Those of the model, and mass and damping coefficient, in the order of every report.
+/// False for those that the planned cycles do not have: force recovery and relaxation.
+bool is_planned(ParameterId id) {
+  constexpr std::array kNotPlanned{ParameterId::ReloadForce, ParameterId::ReloadLength, ParameterId::Relaxation,
+                                   ParameterId::RelaxationTime};
+  return std::ranges::find(kNotPlanned, id) == kNotPlanned.end();
+}
+
+/// Those of the model that can be planned for, mass and damping coefficient, in the order of every report.
 std::vector<NamedJet> parameters_of(const ModelEstimate& model) {
   const auto of = [&model](ParameterId id) { return predict::parameter_of<Jet>(model, id); };
   const Jet k = of(ParameterId::Stiffness);
@@ -167,6 +177,7 @@ std::vector<NamedJet> parameters_of(const ModelEstimate& model) {
   std::vector<NamedJet> all;
   for (const ParameterInfo& parameter : parameter_table()) {
     std::string name(parameter.key);
+    if (!is_planned(parameter.id)) continue;
     if (model.find(parameter.id) != nullptr)
       all.push_back({std::move(name), of(parameter.id)});
     else if (parameter.id == ParameterId::Mass)
@@ -361,17 +372,36 @@ PlanTarget worst_known(const std::vector<ParameterLimit>& limits) {
   return {worst->name, std::nullopt};
 }
 
-Result<Jet> jet_of(const PlanTarget& target, const ModelEstimate& model) {
+/// One recording does not show how friction changes with speed, which limits a prediction elsewhere.
+bool is_elsewhere(const PlanBasis& basis, double speed_m_per_s) {
+  const double ratio = speed_m_per_s / basis.recordings.front().speed_m_per_s;
+  return basis.recordings.size() == 1 && std::abs(ratio - 1.0) > thresholds::kNegligible;
+}
+
+Result<Jet> jet_of(const PlanTarget& target, const PlanBasis& basis) {
+  const ModelEstimate& model = basis.estimate;
   if (target.name == "periodic_displacement_m") {
     if (!target.speed_m_per_s) return Error{"bad_target", "periodic_displacement_m needs a speed"};
     const predict::ModelMotion motion = predict::motion_at(model, *target.speed_m_per_s);
     if (!motion.cycle) return Error{"bad_target", "the fitted model has no stick-slip at this speed"};
+    if (is_elsewhere(basis, *target.speed_m_per_s)) {
+      return Error{"bad_target",
+                   fmt::format("one recording does not show how friction changes with speed, which limits "
+                               "the prediction at {:.4g} m/s: record at that speed, and fit both "
+                               "recordings together",
+                               *target.speed_m_per_s)};
+    }
     return Jet(*target.speed_m_per_s * motion.cycle->period_s());
   }
   std::string known;
   for (const NamedJet& parameter : parameters_of(model)) {
     if (parameter.name == target.name) return Jet(parameter.value);
     known += parameter.name + ", ";
+  }
+  const std::optional<ParameterId> id = parameter_with_key(target.name);
+  if (id && !is_planned(*id)) {
+    return Error{"bad_target", "recordings are not planned for " + target.name + ", expected one of " + known +
+                                   "periodic_displacement_m"};
   }
   return Error{"bad_target",
                "unknown target '" + target.name + "', expected one of " + known + "periodic_displacement_m"};
@@ -384,7 +414,7 @@ Result<Plan> plan_next(const PlanBasis& basis, const std::optional<PlanTarget>& 
   Plan plan;
   for (const NamedJet& parameter : parameters_of(basis.estimate)) plan.limits.push_back(planner.limit_of(parameter));
   plan.target = target.value_or(worst_known(plan.limits));
-  const Result<Jet> wanted = jet_of(plan.target, basis.estimate);
+  const Result<Jet> wanted = jet_of(plan.target, basis);
   if (!wanted) return wanted.error();
   plan.value = wanted.value().a;
   plan.standard_error = planner.error_now(wanted.value());

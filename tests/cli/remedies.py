@@ -256,7 +256,7 @@ CASES = [  # codes, words of the message, refused command, command with the reme
     ("wrong_usage", "--speeds 1mm/s", ["predict", "fit.json"], ["predict", "fit.json", "--speeds", "1mm/s:1m/s:5"]),
     ("wrong_usage", "give FIT.json", ["predict", "--speeds", "1mm/s"], ["predict", "fit.json", "--speeds", "1mm/s"]),
     ("wrong_usage", "either", ["predict", "fit.json", "--speeds", "1mm/s", "--stiffness", "5000"], ["predict", "fit.json", "--speeds", "1mm/s"]),
-    ("wrong_usage", "--at", ["plan", "fit.json", "--for", "periodic_displacement_m"], ["plan", "fit.json", "--for", "periodic_displacement_m", "--at", "5mm/s"]),
+    ("wrong_usage", "--at", ["plan", "fit.json", "--for", "periodic_displacement_m"], ["plan", "fit.json", "--for", "periodic_displacement_m", "--at", "10mm/s"]),
     ("wrong_usage", "give A and B", ["compare", "fit.json"], ["compare", "fit.json", "load.json"]),
     ("wrong_usage", "I/N", B("m.csv", "--shard", "3/2"), TO_M),
     ("wrong_usage", "1 to", B("m.csv", "--jobs", "0"), B("m.csv", "--resume", "--jobs", "1")),

@@ -192,6 +192,22 @@ TEST_CASE("ageing: a plan for its rate stays below the end of stick-slip and nar
   }
 }
 
+TEST_CASE("static friction that falls with the time at rest lets stick-slip begin at a speed, and damping end it") {
+  PredictionModel model = ageing_example();
+  model.estimate.ageing->rate_N = -0.03;
+  const PredictedMotion slow = predicted(model, 1e-9);
+  const PredictedMotion fast = predicted(model, 0.01);
+  CHECK_FALSE(slow.period_s.value);
+  CHECK(fast.period_s.value);
+  const Estimate critical = critical_speed(model);
+  INFO(critical.note);
+  REQUIRE(critical.ci95);
+  CHECK(critical.ci95->low > 0.01);
+  REQUIRE(critical.value);
+  CHECK(predicted(model, 0.999 * *critical.value).period_s.value);
+  CHECK_FALSE(predicted(model, 1.001 * *critical.value).period_s.value);
+}
+
 TEST_CASE("ageing: a sweep tells it, and predicts the spacing between and beyond its speeds") {
   const test::SpeedSweep truth = ageing_slider();
   int inside = 0;

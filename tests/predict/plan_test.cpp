@@ -124,6 +124,26 @@ TEST_CASE("options come best first, with enough cycles, below the end of stick-s
   CHECK(plan.halving_s);
 }
 
+TEST_CASE("one recording is no basis for a plan of the displacement at another speed") {
+  PlanBasis basis = fitted_basis({}, {0.01, 0.02, 0.04}, 70);
+  basis.recordings.resize(1);
+  const double speed_m_per_s = basis.recordings.front().speed_m_per_s;
+  CHECK(plan_next(basis, PlanTarget{"periodic_displacement_m", speed_m_per_s}));
+  CHECK_THAT(plan_next(basis, PlanTarget{"periodic_displacement_m", 3.0 * speed_m_per_s}).error().message,
+             Catch::Contains("record at that speed"));
+}
+
+TEST_CASE("recordings are not planned for force recovery, which the planned cycles do not have") {
+  PlanBasis basis = fitted_basis({}, {0.01, 0.02, 0.04}, 70);
+  basis.estimate.reloading = Reloading{0.04, 1.5e-4};
+  basis.estimate.covariance[8][8] = 1e-6;
+  basis.estimate.covariance[9][9] = 1e-3;
+  const Plan plan = plan_next(basis, std::nullopt).value();
+  for (const ParameterLimit& limit : plan.limits) CHECK_FALSE(limit.name.starts_with("reload"));
+  CHECK_THAT(plan_next(basis, PlanTarget{"reload_force_N", std::nullopt}).error().message,
+             Catch::Contains("not planned for reload_force_N"));
+}
+
 TEST_CASE("a target that the model does not have is refused") {
   PlanBasis basis = fitted_basis({}, {0.01, 0.02, 0.04}, 70);
   const auto refused = [&basis](const PlanTarget& target) { return plan_next(basis, target).error().message; };
