@@ -382,8 +382,7 @@ Findings findings_of(const Recording& recording, const ContactCycles& found, con
   }
   spread.covariance(kLevel, kLevel) = plateau.variance;
   spread.covariance(kLevel, kDifference) = spread.covariance(kDifference, kLevel) = plateau.with_jump;
-  spread.covariance(kLogStiffness, kLogStiffness) +=
-      std::pow(conditions.speed_standard_error_m_per_s.value_or(0.0) / conditions.speed_m_per_s, 2);
+  spread.covariance(kLogStiffness, kLogStiffness) += std::pow(conditions.relative_speed_error(), 2);
   spread.degrees_of_freedom = static_cast<double>(found.cycles.size()) - 1.0;
   const double se = std::sqrt(spread.covariance(kDamping, kDamping));
   const Interval damping = damping_interval(solution.value(2), se, t_quantile(spread.degrees_of_freedom));

@@ -38,13 +38,14 @@ double samples_per_slip(std::span<const SweepRecording> recordings, const SweepD
   return signal::median(samples);
 }
 
-/// Returns the root mean square of the recordings' noise, each weighted by its number of cycles.
+/// Returns the root mean square of the residuals of the joint fit, each recording weighted by its number of cycles.
 double residual_rms(const SweepSolution& solution) {
   double square = 0.0;
   for (const fit::BlockFit& recording : solution.recordings) {
     square += recording.scales().noise * recording.scales().noise * static_cast<double>(recording.size());
   }
-  return std::sqrt(square / static_cast<double>(solution.cycles()));
+  const double reduced_chi2 = solution.chi2 / solution.degrees_of_freedom;
+  return std::sqrt(reduced_chi2 * square / static_cast<double>(solution.cycles()));
 }
 
 const char* name_of_change(fit::FrictionLaw law) {
@@ -73,13 +74,23 @@ BentSticks bent_sticks_of(const SweepSolution& solution) {
   return bent;
 }
 
-/// Returns the spread of the outcome, with a one-sided spread of w_n that averaging adds, and what sticks that bend add
-/// to k.
-fit::Spread spread_of(const SweepOutcome& outcome, double averaging, const BentSticks& bent) {
+/// Returns the variance of ln k due to the speeds, for the data determine k V. One drive makes all speeds of a sweep:
+/// they may be off by the same factor, the largest that is stated.
+double variance_of_speed(std::span<const SweepRecording> recordings) {
+  double largest = 0.0;
+  for (const SweepRecording& recording : recordings) {
+    largest = std::max(largest, recording.recording.conditions().relative_speed_error());
+  }
+  return largest * largest;
+}
+
+/// Returns the spread of the outcome, with a one-sided spread of w_n that averaging adds, and what bent sticks and
+/// uncertain speeds add to ln k.
+fit::Spread spread_of(const SweepOutcome& outcome, double averaging, double variance_of_log_k) {
   fit::Spread spread = outcome.spread;
   if (!outcome.solution.held[fit::kLogStiffness]) {
-    spread.covariance(fit::kLogStiffness, fit::kLogStiffness) += bent.variance;
-    if (spread.profile) spread.profile->held(fit::kLogStiffness, fit::kLogStiffness) += bent.variance;
+    spread.covariance(fit::kLogStiffness, fit::kLogStiffness) += variance_of_log_k;
+    if (spread.profile) spread.profile->held(fit::kLogStiffness, fit::kLogStiffness) += variance_of_log_k;
   }
   spread.one_sided.emplace_back(averaging * fit::Coordinates::Unit(fit::kLogFrequency));
   return spread;
@@ -108,7 +119,8 @@ class Assembler {
         model_(values_, data.units),
         bent_(bent_sticks_of(outcome.solution)),
         averaging_(data.motion ? 0.0 : fit::effect_of_averaging(recordings, outcome, data)),
-        intervals_(fit::with_trend(spread_of(outcome, averaging_, bent_), trend_, data.units.force)) {}
+        intervals_(fit::with_trend(spread_of(outcome, averaging_, bent_.variance + variance_of_speed(recordings)),
+                                   trend_, data.units.force)) {}
 
   [[nodiscard]] SweepFit assemble(const fit::LawChoice& choice) const {
     SweepFit sweep;

@@ -86,7 +86,7 @@ Derived derive_from_model(const FitResult& fit, const Conditions& conditions) {
     return derived;
   }
   const double speed = conditions.speed_m_per_s;
-  const double speed_error = conditions.speed_standard_error_m_per_s.value_or(0.0) / speed;
+  const double speed_error = conditions.relative_speed_error();
   const ModelEstimate model = at_the_measured_speed(from_single_speed(fit, speed), speed_error);
   const predict::Propagation propagation(model);
   const auto body = predict::body_at<predict::Jet>(model, speed);

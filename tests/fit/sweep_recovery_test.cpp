@@ -127,6 +127,27 @@ TEST_CASE("sweep: recordings through a sensor of first order share their frictio
   check_recovery(sweep, scene);
 }
 
+TEST_CASE("sweep: an uncertain speed is in k, and in nothing that the data give without it") {
+  constexpr double kSpeedError = 0.02;
+  std::vector<SweepEntry> entries = test::record_sweep({}, kSpeeds);
+  const SweepAnalysis exact = analyze_sweep(entries);
+  for (SweepEntry& entry : entries) {
+    Conditions conditions = entry.recording.conditions();
+    conditions.speed_standard_error_m_per_s = kSpeedError * conditions.speed_m_per_s;
+    entry.recording = test::with_conditions(entry.recording, conditions);
+  }
+  const SweepAnalysis uncertain = analyze_sweep(entries);
+  const auto relative_se = [](const Estimate& estimate) { return *estimate.standard_error / *estimate.value; };
+  const double before = relative_se(parameter(exact, "stiffness_N_per_m").estimate);
+  CHECK(relative_se(parameter(uncertain, "stiffness_N_per_m").estimate) ==
+        Approx(std::hypot(before, kSpeedError)).epsilon(1e-6));
+  for (const char* name : {"natural_frequency_rad_per_s", "damping_ratio", "friction_difference_N"}) {
+    INFO(name);
+    CHECK(*parameter(uncertain, name).estimate.standard_error ==
+          Approx(*parameter(exact, name).estimate.standard_error).epsilon(1e-9));
+  }
+}
+
 TEST_CASE("sweep: a sensor at the contact is left out") {
   SweepScene scene;
   std::vector<SweepEntry> entries = test::record_sweep(scene, {0.005, 0.01});

@@ -87,6 +87,11 @@ struct Conditions {
   /// Returns the time by which the sensor delays a slow ramp, in s, where its bandwidth is stated: 1 / (2 pi f) times
   /// the coefficient of s in the Butterworth polynomial, 1 / sin(pi / (2 n)). docs/model.md section 7
   [[nodiscard]] std::optional<double> sensor_lag_s() const;
+
+  /// Standard error of the driving speed over the speed; 0 where none is stated.
+  [[nodiscard]] double relative_speed_error() const {
+    return speed_standard_error_m_per_s.value_or(0.0) / speed_m_per_s;
+  }
 };
 
 /// Highest order of the sensor's filter.

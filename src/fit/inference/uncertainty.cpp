@@ -305,6 +305,7 @@ std::optional<SegmentMisfit> find_misfit(const BlockFit& fit, double tolerated) 
 
 Uncertainty with_misfit(Uncertainty uncertainty, const Moves& moves) {
   const auto count = static_cast<double>(moves.rows());
+  if (count < 2.0) return uncertainty;  // nothing can be left out
   uncertainty.from_refits = true;
   uncertainty.covariance += (count - 1.0) / count * moves.transpose() * moves;
   return uncertainty;

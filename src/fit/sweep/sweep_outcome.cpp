@@ -528,12 +528,13 @@ double left_out_error(const SweepOutcome& outcome) {
 
 double residual_over_noise(std::span<const SweepRecording> recordings, const SweepData& data,
                            const SweepSolution& solution) {
-  double sum = 0.0;
+  std::vector<double> squares;
   for (const std::size_t i : data.fitted) {
     const double noise = recordings[i].quality.noise_rms;
-    if (noise > 0.0) sum += std::pow(data.single[i]->uncertainty.noise / noise, 2);
+    if (noise > 0.0) squares.push_back(std::pow(data.single[i]->uncertainty.noise / noise, 2));
   }
-  return sum / static_cast<double>(data.fitted.size()) * solution.chi2 / solution.degrees_of_freedom;
+  if (squares.empty()) return 0.0;
+  return slipfit::mean_of(squares) * solution.chi2 / solution.degrees_of_freedom;
 }
 
 double effect_of_averaging(std::span<const SweepRecording> recordings, const SweepOutcome& outcome,
