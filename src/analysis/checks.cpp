@@ -92,13 +92,14 @@ std::optional<std::string> implausible_units(const Recording& recording, const A
   }
   if (is_plausible(seen)) return std::nullopt;
   std::string what;
-  const auto add = [&what](const std::optional<double>& value, const Range& range, const char* words) {
-    if (is_outside(value, range)) what += fmt::format("{}{} {:.3g}", what.empty() ? "" : ", ", words, *value);
+  const auto add = [&what](const std::optional<double>& value, const Range& range, const char* words,
+                           const char* unit) {
+    if (is_outside(value, range)) what += fmt::format("{}{} {:.3g} {}", what.empty() ? "" : ", ", words, *value, unit);
   };
-  add(seen.stiffness_N_per_m, kStiffness_N_per_m, "a stiffness in N/m of");
-  add(seen.mass_kg, kMass_kg, "a mass in kg of");
-  add(seen.spacing_m, kSpacing_m, "a distance per slip in m of");
-  return fmt::format("{} is outside the range of tribometers: {}", what,
+  add(seen.stiffness_N_per_m, kStiffness_N_per_m, "a stiffness of", "N/m");
+  add(seen.mass_kg, kMass_kg, "a mass of", "kg");
+  add(seen.spacing_m, kSpacing_m, "a distance per slip of", "m");
+  return fmt::format("the results are outside the range of tribometers ({}): {}", what,
                      remedy_for(seen, recording.provenance().is_time_unit_assumed));
 }
 
@@ -182,7 +183,7 @@ ShortTest test_drift(const std::vector<Pair>& pairs, double duration_s) {
   const double change = slope * duration_s / mean_s;
   const double p = chance_of(r, count - 2.0);
   return {TestKind::PeriodDrift, change, std::abs(change) * std::sqrt((1.0 / (r * r) - 1.0) / (count - 2.0)), p,
-          fmt::format("the period changes by {:+.2g} % from start to end: {}", 100.0 * change, seen(p))};
+          fmt::format("the period changes by {:+.3g} % from start to end: {}", 100.0 * change, seen(p))};
 }
 
 ShortTest test_return_map(const std::vector<Pair>& pairs) {
@@ -371,7 +372,7 @@ double mean_drop(std::span<const Cycle> cycles) {
 }  // namespace
 
 std::optional<ShortTest> test_level_repeats(std::span<const Cycle> cycles, std::optional<double> speed_m_per_s) {
-  if (cycles.size() < thresholds::kFewestOfLine) return std::nullopt;
+  if (cycles.size() < thresholds::kFewestOfWave) return std::nullopt;
   cycles = cycles.first(std::min(cycles.size(), kMostSlips));
   const auto count = static_cast<double>(cycles.size());
   const Series levels = levels_of(cycles);
@@ -401,7 +402,7 @@ std::optional<ShortTest> test_level_repeats(std::span<const Cycle> cycles, std::
   const std::string path = path_m ? fmt::format(" or {:.3g} mm of sliding", 1e3 * *path_m) : "";
   const bool is_proven = p < thresholds::kProven;
   return ShortTest{TestKind::LevelRepeats, path_m, se_m, p,
-                   fmt::format("the force level varies by {:.2g} % of the mean drop once every {:.3g} slips{}: {} at "
+                   fmt::format("the force level varies by {:.3g} % of the mean drop once every {:.3g} slips{}: {} at "
                                "the {:g} % level (p {:.2g}){}",
                                100.0 * swing, (count - 1.0) / best.waves, path, is_proven ? "proven" : "not proven",
                                100.0 * thresholds::kProven, p,

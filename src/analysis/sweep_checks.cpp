@@ -372,7 +372,7 @@ Warnings check_agreement(std::span<const SweepEntry> entries, const std::vector<
                     entries[recording].id, shown)};
   };
   if (const auto apart = by_stiffness(entries, analyses, fit)) {
-    return {warning(apart->recording, fmt::format("its stiffness is {:.2g} % {} theirs (k is proportional to 1/V)",
+    return {warning(apart->recording, fmt::format("its stiffness is {:.3g} % {} theirs (k is proportional to 1/V)",
                                                   100.0 * std::abs(apart->distance), side_of(*apart)))};
   }
   if (const auto apart = by_spacing(entries, analyses, fit)) {
@@ -380,7 +380,7 @@ Warnings check_agreement(std::span<const SweepEntry> entries, const std::vector<
                                                   std::exp(apart->distance)))};
   }
   if (const auto apart = by_level(entries, analyses, fit)) {
-    return {warning(apart->recording, fmt::format("its force level is {:.2g} times F_s - F_k {} theirs",
+    return {warning(apart->recording, fmt::format("its force level is {:.3g} times F_s - F_k {} theirs",
                                                   std::abs(apart->distance), side_of(*apart)))};
   }
   return {};
