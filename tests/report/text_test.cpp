@@ -51,7 +51,7 @@ TEST_CASE("correlated residuals are named, and a probability of 0 is given as a 
   auto analysis = test::full_analysis();
   analysis.fit->residual = {0.02, 156.0, 0.0};
   const std::string text = to_text(test::small_recording(), analysis);
-  CHECK_THAT(text, Contains("12 times the noise (reduced chi2 156)"));
+  CHECK_THAT(text, Contains("12.5 times the noise (reduced chi2 156)"));
   CHECK_THAT(text, Contains("neighbouring residuals are correlated") && Contains("below 1e-6"));
 }
 

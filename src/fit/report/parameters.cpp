@@ -32,7 +32,11 @@ namespace {
 constexpr const char* kZeroUnknown = "assumes that the sensor reads 0 without force: state its reading with --zero";
 /// States why F_s - F_k and zeta of one speed are conditional.
 constexpr const char* kOneSpeed =
-    "assumes kinetic friction that does not depend on sliding speed; one driving speed cannot test this: fit a sweep";
+    "assumes kinetic friction that is the same at every sliding speed and in every slip; one driving speed cannot test "
+    "this: fit a sweep";
+/// States why a stiffness that changes along the path is conditional.
+constexpr const char* kConstantSpeed =
+    "assumes a constant driving speed: only k V is measured, and a speed that changes by as much looks the same";
 
 /// States why w_n and mass that are read from the slips alone are conditional. docs/model.md, section 16.
 constexpr const char* kSlipsAlone =
@@ -64,7 +68,9 @@ std::string weak_damping(const Estimate& damping) {
   const double times = std::pow(4.0 * *damping.standard_error / *damping.value, 2);
   const std::string known = fmt::format("its standard error is {:.2g}", *damping.standard_error);
   return times < 100.0 ? fmt::format("{}; {:.2g} times as many cycles, or less noise, would determine it", known, times)
-                       : known + ": it cannot be distinguished from 0";
+                       : known +
+                             ": it cannot be distinguished from 0, unless kinetic friction that falls with sliding "
+                             "speed conceals it";
 }
 
 /// Returns the cut-off of ageing where the recordings do not determine it: the part of its range that they allow.
@@ -255,7 +261,7 @@ class Reporter {
     result_.level_trend = f_.level_trend;
     report_stiffness();
     if (model_.stiffness_ratio) {
-      add_graded(Id::StiffnessRatio, f_.intervals.interval_of_one_sign(*model_.stiffness_ratio));
+      report_stiffness_ratio(f_.intervals.interval_of_one_sign(*model_.stiffness_ratio));
     }
     report_friction();
     report_dynamics();
@@ -358,6 +364,13 @@ class Reporter {
     result_.parameters.back().estimate.note += fmt::format(
         "{}at {:.4g} m/s", result_.parameters.back().estimate.note.empty() ? "" : "; ", f_.units.speed_m_per_s);
     add_graded(Id::StiffnessExponent, f_.intervals.interval_of(model_.stiffness_exponent));
+  }
+
+  /// The data give k V: a drive that changes its speed shows in the same way.
+  void report_stiffness_ratio(const Estimate& ratio) {
+    Verdict verdict = verdict_on(Id::StiffnessRatio, ratio);
+    if (verdict.status == ParameterStatus::Identified) verdict = {ParameterStatus::Conditional, kConstantSpeed};
+    add(Id::StiffnessRatio, ratio, verdict.status, std::move(verdict.note));
   }
 
   void report_friction() {

@@ -199,7 +199,7 @@ StiffnessFindings stiffness_findings(const Recording& recording, const TierFits&
     result.note = result.warnings.back().message;
   }
   // The data give k V.
-  result.variance += std::pow(conditions.speed_standard_error_m_per_s.value_or(0.0) / conditions.speed_m_per_s, 2);
+  result.variance += std::pow(conditions.relative_speed_error(), 2);
   return result;
 }
 
@@ -365,7 +365,7 @@ void state_caveats(const Conditions& conditions, const TierFits& fits, const Res
   if (large) {
     findings.warnings.push_back(
         {"model_misfit",
-         fmt::format("residuals are {:.2g} times the noise: the model misses part of the slip, and parameters "
+         fmt::format("residuals are {:.3g} times the noise: the model misses part of the slip, and parameters "
                      "that depend on its shape are uncertain",
                      std::sqrt(*residual.reduced_chi2))});
   }
@@ -382,6 +382,11 @@ void state_caveats(const Conditions& conditions, const TierFits& fits, const Res
     findings.add(About::Slip, ParameterStatus::Weak,
                  fmt::format("residuals are {}larger than the noise: the interval may be too narrow",
                              coloured ? "correlated and " : ""));
+  }
+  if (findings.weakens && coloured && fits.damped.law_caveat.empty()) {
+    findings.add(
+        About::Slip, ParameterStatus::Weak,
+        "residuals are correlated: creep before a slip may be taken for friction that weakens over a distance");
   }
   findings.slip_unresolved =
       resolution.slip_resolved ? caveat_of_fall(conditions, fits.damped, residual, findings) : resolution.reason;

@@ -51,7 +51,13 @@ Chosen with_weakening(Chosen chosen, const FitInput& input, std::optional<Tier> 
 
 Chosen choose_law(const FitInput& input, DampedFit damped, std::optional<Tier> forced) {
   TierFits fits{fit_sawtooth(damped), std::nullopt, std::move(damped)};
-  const Resolution resolution = resolution_of(input.recording, fits);
+  Resolution resolution = resolution_of(input.recording, fits);
+  if (forced == Tier::Sawtooth) {
+    std::vector<Candidate> candidates = choose_tier(fits, resolution, forced);
+    resolution.slip_resolved = resolution.damping_resolved = false;
+    resolution.reason = "the slips of the sawtooth model, which --tier requests, take no time";
+    return {std::move(fits), std::move(resolution), std::move(candidates)};
+  }
   const bool undamped_may_lose = resolution.damping_resolved && forced != Tier::Undamped;
   if (!fits.damped.held[kDamping]) fits.undamped = fit_undamped(fits.damped, undamped_may_lose);
   const std::optional<Tier> of_coulomb = forced == Tier::Weakening ? std::nullopt : forced;
