@@ -32,6 +32,14 @@ struct FrequencyReport {
 /// The rhythm of the slips: with a period of their own, irregular, or synchronous with the stated drive.
 enum class Regularity { Regular, Irregular, Clocked };
 
+/// Sticks whose slope clearly differs from that of most: the drive changed its speed there, or the zero of the sensor
+/// drifted.
+struct OtherSticks {
+  std::size_t count = 0;  ///< 0: none
+  std::size_t of = 0;     ///< all sticks
+  Estimate stiffness;     ///< N/m: their slope over the speed
+};
+
 /// Statistics over the cycles of one recording; forces in the unit of the force column.
 struct CycleStatistics {
   std::size_t count = 0;  ///< slips whose drop is at least a quarter of the median drop
@@ -43,6 +51,7 @@ struct CycleStatistics {
   std::optional<Regularity> regularity;      ///< empty below 3 slips
   std::optional<double> fall_time_s;         ///< median duration of the detected falls
   Estimate stick_stiffness;  ///< N/m: slope of the rises over the speed, whatever model fits; of newtons
+  OtherSticks other_sticks;
 };
 
 /// Short tests of assumptions of the fit. Their `value` is: relative change of the period over the recording;

@@ -82,6 +82,12 @@ Estimate stiffness_by_sticks(const Subject& of) {
   return slope;
 }
 
+/// The slope of the sticks that the fit leaves out or averages with the rest, because it differs from that of most.
+Estimate stiffness_by_other_sticks(const Subject& of) {
+  const bool is_comparable = stiffness_by_sticks(of).value.has_value();
+  return is_comparable ? of.analysis.cycles.other_sticks.stiffness : Estimate{};
+}
+
 Estimate stated_speed(const Subject& of) {
   const double error = of.recording.conditions().speed_standard_error_m_per_s.value_or(0.0);
   return {of.speed_m_per_s(), error, std::nullopt, {}};
@@ -145,19 +151,41 @@ Estimate counted(const Subject& of) {
 struct Row {
   std::string_view pair, first_of, second_of;
   std::span<const Concern> concerns;
+  std::string_view first_words, second_words, unit;
   Estimate (*first)(const Subject&);
   Estimate (*second)(const Subject&);
   ParameterStatus highest = ParameterStatus::Weak;
 };
 
 constexpr std::array kRows = std::to_array<Row>({
-    {"stiffness_and_sticks", "parameters.stiffness_N_per_m", "cycles.stick_stiffness_N_per_m", kOfStiffness, stiffness,
-     stiffness_by_sticks},
-    {"speed_and_displacement", "recording.speed_m_per_s", "speed of the displacement column", kOfSpeed, stated_speed,
-     speed_of_displacement, ParameterStatus::Conditional},
-    {"mass_and_stated_mass", "secant of the sticks / w_n^2", "recording.mass_kg", kOfMass, mass_by_secant, stated_mass},
-    {"frequency_and_count", "frequency.value_Hz", "frequency.counted", {}, quoted, counted},
-    {"frequency_and_spectrum", "frequency.value_Hz", "frequency.spectral", {}, quoted, frequency_by_spectrum},
+    {"stiffness_and_sticks", "parameters.stiffness_N_per_m", "cycles.stick_stiffness_N_per_m", kOfStiffness,
+     "the stiffness k of the fit", "the slope of the sticks over the speed", "N/m", stiffness, stiffness_by_sticks},
+    {"stiffness_and_other_sticks", "parameters.stiffness_N_per_m", "slope of the sticks that differ, over the speed",
+     kOfStiffness, "the stiffness k of the fit", "the slope of other sticks over the speed", "N/m", stiffness,
+     stiffness_by_other_sticks},
+    {"speed_and_displacement", "recording.speed_m_per_s", "speed of the displacement column", kOfSpeed,
+     "the stated speed", "the speed of the displacement column", "m/s", stated_speed, speed_of_displacement,
+     ParameterStatus::Conditional},
+    {"mass_and_stated_mass", "secant of the sticks / w_n^2", "recording.mass_kg", kOfMass,
+     "the mass by the secant of the sticks over w_n^2", "the stated mass", "kg", mass_by_secant, stated_mass},
+    {"frequency_and_count",
+     "frequency.value_Hz",
+     "frequency.counted",
+     {},
+     "the quoted frequency",
+     "the frequency by counting",
+     "Hz",
+     quoted,
+     counted},
+    {"frequency_and_spectrum",
+     "frequency.value_Hz",
+     "frequency.spectral",
+     {},
+     "the quoted frequency",
+     "the frequency of the spectrum",
+     "Hz",
+     quoted,
+     frequency_by_spectrum},
 });
 
 const Row& row_of(const AuditPair& pair) {
@@ -235,8 +263,9 @@ void widen(ModelEstimate& model, std::span<const Concern> concerns, double log_r
 
 std::string sentence_of(const AuditPair& pair) {
   const std::string place = pair.recording.empty() ? "" : fmt::format("recording '{}': ", pair.recording);
-  return fmt::format("{}{} is {:.4g}, {} is {:.4g}", place, pair.first_of, *pair.first.value, pair.second_of,
-                     *pair.second.value);
+  const Row& row = row_of(pair);
+  return fmt::format("{}{} is {:.4g} {}, {} is {:.4g} {}", place, row.first_words, *pair.first.value, row.unit,
+                     row.second_words, *pair.second.value, row.unit);
 }
 
 std::vector<AuditPair> audit_of(const Recording& recording, const Analysis& analysis, const FitResult& fit) {
@@ -283,6 +312,17 @@ FitResult with_audit(FitResult fit, const std::vector<AuditPair>& pairs) {
     if (fit.estimate && is_widened) widen(*fit.estimate, row.concerns, std::log(ratio));
   }
   return fit;
+}
+
+Derived with_audit(Derived derived, const std::vector<AuditPair>& pairs) {
+  for (const AuditPair& pair : pairs) {
+    if (!pair.contradicts || row_of(pair).first != stated_speed) continue;
+    const double ratio = *pair.second.value / *pair.first.value;
+    if (derived.pattern_spacing_m.value) include(derived.pattern_spacing_m, ratio * *derived.pattern_spacing_m.value);
+    if (derived.impulse_rate_per_m.value)
+      include(derived.impulse_rate_per_m, *derived.impulse_rate_per_m.value / ratio);
+  }
+  return derived;
 }
 
 FrequencyReport with_audit(FrequencyReport frequency, const std::vector<AuditPair>& pairs) {

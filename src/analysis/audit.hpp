@@ -17,6 +17,9 @@ std::vector<AuditPair> joint_audit_of(const SweepEntry& entry, const Analysis& a
 /// The fit with the parameters of contradicted pairs not identified, in intervals that include both values.
 FitResult with_audit(FitResult fit, const std::vector<AuditPair>& pairs);
 
+/// Returns the derived quantities with the measured spacing by the speed of a displacement column, too.
+Derived with_audit(Derived derived, const std::vector<AuditPair>& pairs);
+
 /// Returns the reported frequency with its audit.
 FrequencyReport with_audit(FrequencyReport frequency, const std::vector<AuditPair>& pairs);
 

@@ -82,9 +82,34 @@ std::size_t falls_beyond_noise(const Segmentation& segmentation) {
   return static_cast<std::size_t>(std::ranges::count_if(segmentation.slips, stands_out));
 }
 
+/// The force changes by more than half of its largest value, along one line: nothing slides yet, or a zero drifts.
+bool is_only_loaded(const Recording& recording) {
+  constexpr double kShare = 0.5;
+  const std::span<const double> time_s = recording.time_s();
+  const std::span<const double> force = recording.force();
+  const LineSums line = line_sums(time_s, force);
+  const double change = std::abs(line.slope()) * recording.duration_s();
+  const double largest =
+      std::max(std::abs(*std::ranges::max_element(force)), std::abs(*std::ranges::min_element(force)));
+  if (!(change > kShare * largest)) return false;
+  constexpr double kStraight = 0.05;  // rms about the line over the change; 0.1 where half is flat
+  return std::sqrt(line.variance()) < kStraight * change;
+}
+
+/// "one slip", "2 slips".
+std::string counted(std::size_t count, const char* what) {
+  return count == 1 ? fmt::format("one {}", what) : fmt::format("{} {}s", count, what);
+}
+
 std::optional<Classification> by_counts(const Recording& recording, const Segmentation& segmentation,
                                         const SpectralFrequency& spectral) {
   const std::size_t count = segmentation.slips.size();
+  if (count == 0 && is_only_loaded(recording)) {
+    return Classification{
+        MotionClass::Undetermined,
+        "the force only rises or falls, along a straight line: a loading ramp before the body slides, "
+        "or a sensor that drifts; record longer"};
+  }
   if (count == 0) return Classification{MotionClass::SteadySliding, "the force has no drops larger than its noise"};
   const std::size_t larger = falls_beyond_noise(segmentation);
   if (is_faint(segmentation) && larger < thresholds::kFewestSlips && no_repetition(spectral)) {
@@ -98,11 +123,12 @@ std::optional<Classification> by_counts(const Recording& recording, const Segmen
     return Classification{MotionClass::SteadySliding, "no force drops except those of the release at the end"};
   }
   if (count < 4 && ends_flat(recording, segmentation)) {
-    return Classification{MotionClass::SteadySliding, fmt::format("{} force drop(s) at the start, then none", count)};
+    return Classification{MotionClass::SteadySliding,
+                          fmt::format("{} at the start, then none", counted(count, "force drop"))};
   }
   if (count < thresholds::kFewestSlips) {
     return Classification{MotionClass::Undetermined,
-                          fmt::format("only {} slip(s): at least 3 are needed; record longer", count)};
+                          fmt::format("only {}: at least 3 are needed; record longer", counted(count, "slip"))};
   }
   const double cycle_samples = (segmentation.slips.back().middle_s - segmentation.slips.front().middle_s) /
                                static_cast<double>(count - 1) / recording.sample_interval_s();
@@ -337,6 +363,19 @@ Classification unless_no_sticks(Classification classification, const Recording& 
       "an irregular oscillation"};
 }
 
+/// Falls that last much longer than the rises are the sticks of a force with the other sign.
+Classification unless_reversed(Classification classification, const Segmentation& segmentation) {
+  const bool may_be =
+      classification.motion == MotionClass::OscillatorySlip || classification.motion == MotionClass::Undetermined;
+  if (!may_be || segmentation.slips.size() < thresholds::kFewestSlips) return classification;
+  const double ratio = rise_over_fall(segmentation);
+  if (!(ratio > 0.0 && ratio * thresholds::kSudden < 1.0)) return classification;
+  return {MotionClass::Undetermined,
+          fmt::format("the force falls {:.1f} times as long as it rises, as in stick-slip whose force has the other "
+                      "sign: multiply the force by -1 and analyse it again",
+                      1.0 / ratio)};
+}
+
 /// Classifies by the shape of the falls alone.
 Classification by_falls(const Recording& recording, const Signals& signals) {
   const Segmentation& segmentation = signals.segmentation;
@@ -358,9 +397,8 @@ Classification by_falls(const Recording& recording, const Signals& signals) {
   return {MotionClass::Undetermined, "the force falls about as slowly as it rises: only a fit can decide"};
 }
 
-}  // namespace
-
-Classification classify(const Recording& recording, const Estimates& estimates) {
+/// Classifies the motion, whatever the sign of the force.
+Classification as_recorded(const Recording& recording, const Estimates& estimates) {
   Classification classification = unless_no_sticks(classify_by_fit(recording, estimates), recording, estimates);
   if (!classification.model_fits && follows_drive_path(recording.conditions(), estimates.signals.segmentation)) {
     return {MotionClass::SteadySliding,
@@ -379,9 +417,16 @@ Classification classify(const Recording& recording, const Estimates& estimates) 
   return unless_unresolved(std::move(classification), recording, estimates.signals.spectral);
 }
 
+}  // namespace
+
+Classification classify(const Recording& recording, const Estimates& estimates) {
+  return unless_reversed(as_recorded(recording, estimates), estimates.signals.segmentation);
+}
+
 Classification classify_by_shape(const Recording& recording, const Signals& signals) {
-  return unless_unresolved(unless_no_sticks(by_falls(recording, signals), recording, {signals, {}}), recording,
-                           signals.spectral);
+  return unless_reversed(unless_unresolved(unless_no_sticks(by_falls(recording, signals), recording, {signals, {}}),
+                                           recording, signals.spectral),
+                         signals.segmentation);
 }
 
 }  // namespace slipfit

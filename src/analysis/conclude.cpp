@@ -46,14 +46,19 @@ Derived with_worn_track(Derived derived, const Conditions& conditions) {
   return derived;
 }
 
-/// Returns the quantities that follow from the fit and the measurement at the recording's own speed.
-Derived derive(const Recording& recording, const Analysis& analysis) {
+/// Returns the quantities that follow from the fit and the measurement at the recording's own speed. An oscillation
+/// that dies out leaves no pattern.
+Derived derive(const Recording& recording, const Analysis& analysis, bool dies_out) {
   Derived derived;
   if (analysis.fit) derived = derive_from_model(*analysis.fit, recording.conditions());
   if (!analysis.fit && recording.conditions().measured_spacing_m) {
     derived.measured_spacing_En = unknown("needs a fitted model");
   }
-  derived = with_measured_spacing(std::move(derived), recording, analysis.frequency, analysis.cycles);
+  if (dies_out) {
+    derived.pattern_spacing_m = derived.impulse_rate_per_m = unknown("the oscillation decays and leaves no pattern");
+  } else {
+    derived = with_measured_spacing(std::move(derived), recording, analysis.frequency, analysis.cycles);
+  }
   return in_range(with_worn_track(std::move(derived), recording.conditions()));
 }
 
@@ -63,14 +68,14 @@ void append(Warnings& warnings, const Warnings& more) {
 
 /// Returns the analysis in which values that contradict each other are not identified, with what follows from them
 /// derived again.
-Analysis audited(const Recording& recording, Analysis analysis) {
+Analysis audited(const Recording& recording, Analysis analysis, bool dies_out) {
   if (!analysis.fit) return analysis;
   analysis.audit = audit_of(recording, analysis, *analysis.fit);
   const auto contradicts = [](const AuditPair& pair) { return pair.contradicts; };
   if (std::none_of(analysis.audit.begin(), analysis.audit.end(), contradicts)) return analysis;
   analysis.fit = with_audit(*std::move(analysis.fit), analysis.audit);
   analysis.frequency = with_audit(std::move(analysis.frequency), analysis.audit);
-  analysis.derived = derive(recording, analysis);
+  analysis.derived = with_audit(derive(recording, analysis, dies_out), analysis.audit);
   return analysis;
 }
 
@@ -96,6 +101,7 @@ Analysis conclude(const Detected& detected, Estimates& estimates, Classification
   if (estimates.drive) {
     analysis.drive = {estimates.drive->recording.conditions().speed_m_per_s, estimates.drive->share_in_slips};
     analysis.cycles.stick_stiffness = estimates.drive->stiffness_N_per_m;
+    analysis.cycles.other_sticks = {};  // their slopes are those of the drive
   }
   if (analysis.cycles.period_cv) {
     analysis.cycles.regularity = regularity_of(analysis.cycles, analysis.frequency.quoted, recording.conditions());
@@ -106,9 +112,9 @@ Analysis conclude(const Detected& detected, Estimates& estimates, Classification
   analysis.motion = classification.motion;
   analysis.motion_reason = std::move(classification.reason);
   analysis.coefficients = in_range(find_coefficients(detected, analysis));
-  analysis.derived = derive(recording, analysis);
+  analysis.derived = derive(recording, analysis, classification.dies_out);
   analysis.tests = run_short_tests(recording, analysis);
-  analysis = audited(recording, std::move(analysis));
+  analysis = audited(recording, std::move(analysis), classification.dies_out);
   analysis.warnings = collect_warnings({detected, slips, analysis});
   if (analysis.fit) analysis.fit = limited_by(analysis.warnings, *std::move(analysis.fit));
   analysis.fit = curve_in_recording_samples(std::move(analysis.fit), detected);

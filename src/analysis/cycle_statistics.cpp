@@ -16,21 +16,60 @@ namespace slipfit {
 
 namespace {
 
-/// Returns the slope of the sticks over the speed: median and scatter in the middle three fifths of the time between
-/// slips.
-Estimate stick_stiffness(const Recording& recording, const Segmentation& segmentation) {
-  const double speed_m_per_s = recording.conditions().speed_m_per_s;
-  if (!recording.conditions().speed_is_known) return unknown(kNoSpeed);
-  std::vector<double> slopes;
-  for (const Rise& rise : rises_of(recording, segmentation)) slopes.push_back(rise.middle_N_per_s / speed_m_per_s);
-  if (slopes.size() < thresholds::kFewestSlips) return unknown("too few sticks");
-  const double middle = signal::median(slopes);
+/// Returns the median of slopes over the speed with its error.
+Estimate median_slope(const std::vector<double>& slopes_N_per_s, double speed_m_per_s) {
   std::vector<double> off;
-  off.reserve(slopes.size());
-  for (const double slope : slopes) off.push_back(std::abs(slope - middle));
+  const double middle = median(slopes_N_per_s);
+  for (const double slope : slopes_N_per_s) off.push_back(std::abs(slope - middle));
   constexpr double kMedianToSe = signal::kMedianToSigma * 1.2533;  // error of a median over that of a mean
-  const auto count = static_cast<double>(slopes.size());
-  return symmetric(middle, kMedianToSe * signal::median(std::move(off)) / std::sqrt(count), count - 1.0);
+  const auto count = static_cast<double>(slopes_N_per_s.size());
+  const double error = kMedianToSe * median(std::move(off)) / std::sqrt(count);
+  return symmetric(middle / speed_m_per_s, error / speed_m_per_s, count - 1.0);
+}
+
+/// Returns the sticks, none of them short, whose slope clearly differs from that of most: the steeper or the flatter
+/// ones, whichever are more. None where they are so few that an impulse may have made them.
+OtherSticks other_sticks(const std::vector<Rise>& rises, double speed_m_per_s) {
+  std::vector<double> slopes, off, durations_s;
+  for (const Rise& rise : rises) {
+    slopes.push_back(rise.middle_N_per_s);
+    durations_s.push_back(rise.duration_s);
+  }
+  const double middle = median(slopes);
+  for (const double slope : slopes) off.push_back(std::abs(slope - middle));
+  const double scatter = signal::kMedianToSigma * median(std::move(off));
+  const double usual_s = median(std::move(durations_s));
+  std::vector<double> lower, higher;
+  for (const Rise& rise : rises) {
+    const double difference = rise.middle_N_per_s - middle;
+    const double error = scatter * std::max(1.0, std::pow(usual_s / rise.duration_s, 1.5));  // of a line through noise
+    const bool differs = std::abs(difference) > thresholds::kSureSigmas * error &&
+                         std::abs(difference) > thresholds::kNegligible * std::abs(middle);
+    if (differs && rise.duration_s > 0.5 * usual_s) (difference < 0.0 ? lower : higher).push_back(rise.middle_N_per_s);
+  }
+  const std::vector<double>& more = lower.size() > higher.size() ? lower : higher;
+  constexpr double kFew = 0.05;
+  const double least = std::max(2.0, kFew * static_cast<double>(rises.size()));
+  if (static_cast<double>(more.size()) < least) return {};
+  return {more.size(), rises.size(), median_slope(more, speed_m_per_s)};
+}
+
+/// Adds the slopes of the sticks over the speed, in the middle three fifths of the time between slips.
+void add_stick_stiffness(const Recording& recording, const Segmentation& segmentation, CycleStatistics& result) {
+  if (!recording.conditions().speed_is_known) {
+    result.stick_stiffness = unknown(kNoSpeed);
+    return;
+  }
+  const std::vector<Rise> rises = rises_of(recording, segmentation);
+  if (rises.size() < thresholds::kFewestSlips) {
+    result.stick_stiffness = unknown("too few sticks");
+    return;
+  }
+  std::vector<double> slopes;
+  for (const Rise& rise : rises) slopes.push_back(rise.middle_N_per_s);
+  const double speed_m_per_s = recording.conditions().speed_m_per_s;
+  result.stick_stiffness = median_slope(slopes, speed_m_per_s);
+  result.other_sticks = other_sticks(rises, speed_m_per_s);
 }
 
 /// Returns the statistics with the slip and stick times of the fitted cycles.
@@ -92,7 +131,7 @@ CycleStatistics summarise_cycles(const Recording& recording, const Segmentation&
     result.peak_force_sd = peak.sd;
     result.force_drop_sd = drop.sd;
   }
-  result.stick_stiffness = stick_stiffness(recording, segmentation);
+  add_stick_stiffness(recording, segmentation, result);
   const MeanAndSpread interval = describe(intervals_of(recording, segmentation).seconds);
   if (interval.count >= 1.0) result.period_s = interval.mean;
   if (interval.count >= 2.0) {
@@ -120,12 +159,22 @@ Derived with_measured_spacing(Derived derived, const Recording& recording, const
   if (cycles.period_sd_s) derived.pattern_spacing_sd_m = speed * *cycles.period_sd_s;
   if (!frequency.quoted.standard_error) return derived;
   const double of_frequency = *frequency.quoted.standard_error / *frequency.quoted.value;
-  const double of_speed = recording.conditions().speed_standard_error_m_per_s.value_or(0.0) / speed;
+  const double of_speed = recording.conditions().relative_speed_error();
   const double relative = std::hypot(of_frequency, of_speed);
-  const double freedom = std::max(1.0, static_cast<double>(cycles.count) - 3.0);
-  derived.pattern_spacing_m = symmetric(spacing, spacing * relative, freedom);
-  derived.pattern_spacing_m.note = "V / f at the measured speed";
-  derived.impulse_rate_per_m = symmetric(1.0 / spacing, relative / spacing, freedom);
+  derived.pattern_spacing_m.standard_error = spacing * relative;
+  derived.impulse_rate_per_m.standard_error = relative / spacing;
+  if (!frequency.quoted.ci95) return derived;
+  // The ends of the interval of f, each farther off by what the speed may be off.
+  const auto [low, high] = *frequency.quoted.ci95;
+  const double frequency_Hz = *frequency.quoted.value;
+  const auto reach = [&](double ratio) { return std::hypot(ratio - 1.0, kNormalQuantile * of_speed); };
+  const double rate_per_m = 1.0 / spacing;
+  derived.impulse_rate_per_m.ci95 = Interval{rate_per_m * std::max(0.0, 1.0 - reach(low / frequency_Hz)),
+                                             rate_per_m * (1.0 + reach(high / frequency_Hz))};
+  // Where f may be 0, the upper end is as far off as the lower one of f.
+  const double longest = low > 0.0 ? frequency_Hz / low : 2.0 - low / frequency_Hz;
+  derived.pattern_spacing_m.ci95 =
+      Interval{spacing * std::max(0.0, 1.0 - reach(frequency_Hz / high)), spacing * (1.0 + reach(longest))};
   return derived;
 }
 

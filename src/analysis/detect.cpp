@@ -182,7 +182,7 @@ std::vector<Rise> rises_of(const Recording& recording, const Segmentation& segme
       return values.subspan(before.trough + fifth, 3 * fifth);
     };
     rises.push_back({line_sums(middle(recording.time_s()), middle(recording.force())).slope(),
-                     (after.peak_force - before.trough_force) / duration_s});
+                     (after.peak_force - before.trough_force) / duration_s, duration_s});
   }
   return rises;
 }
@@ -328,9 +328,10 @@ std::optional<std::string> broken_rhythm(const Recording& recording, const Segme
   const std::size_t broken = intervals_of(recording, segmentation).broken;
   if (broken == 0) return std::nullopt;
   return fmt::format(
-      "{} interval(s) between slips differ from the period of the others: the stage paused, or samples are missing; "
-      "they were left out",
-      broken);
+      "{} between slips {} from the period of the others: the stage paused, samples are missing, or slips are cut "
+      "short; {} left out",
+      broken == 1 ? "one interval" : fmt::format("{} intervals", broken), broken == 1 ? "differs" : "differ",
+      broken == 1 ? "it was" : "they were");
 }
 
 bool pace_changes(const Segmentation& segmentation) {

@@ -64,6 +64,7 @@ bool slips_are_sudden(const Segmentation& segmentation);
 struct Rise {
   double middle_N_per_s = 0.0;
   double whole_N_per_s = 0.0;
+  double duration_s = 0.0;
 };
 
 /// Returns the rises between slips that have no gap, and samples enough for a slope of their middle.

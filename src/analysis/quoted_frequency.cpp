@@ -251,6 +251,22 @@ FrequencyReport of_trace(const Recording& recording, const Signals& signals, con
   return report;
 }
 
+/// Returns an estimate with an interval that includes the value of another one.
+Estimate including(Estimate estimate, const Estimate& other) {
+  if (!other.value || !estimate.ci95) return estimate;
+  estimate.ci95 = Interval{std::min(estimate.ci95->low, *other.value), std::max(estimate.ci95->high, *other.value)};
+  const double longer = std::max(*estimate.value - estimate.ci95->low, estimate.ci95->high - *estimate.value);
+  estimate.standard_error = std::max(estimate.standard_error.value_or(0.0), longer / kNormalQuantile);
+  return estimate;
+}
+
+/// Cycles that the fit leaves out may have another period than those that it fits.
+bool fits_most_cycles(const FitResult& fit) {
+  constexpr double kMost = 0.8;
+  const auto used = static_cast<double>(std::ranges::count_if(fit.cycles, &Cycle::used));
+  return used >= kMost * static_cast<double>(fit.cycles.size());
+}
+
 }  // namespace
 
 FrequencyReport quote_frequency(const Recording& recording, const Signals& signals,
@@ -277,6 +293,7 @@ FrequencyReport quote_frequency(const Recording& recording, const Signals& signa
       report.quoted = counted;
     } else {
       report = fitted ? *fitted : of_trace(recording, signals, classification);
+      if (fitted && !fits_most_cycles(*fit)) report.quoted = including(report.quoted, counted);
     }
   }
   report.spectral = signals.spectral;

@@ -246,12 +246,16 @@ struct RunUp {
   double rise = 0.0;
 };
 
-/// The first rise that is much larger than the sticks between the slips (or, without slips, than what comes after it).
+/// The first rise that is much larger than the sticks between the slips (or, without slips, than what comes after it)
+/// and that reaches the level of sliding. A lower peak is one of the ramp, on which a slack line tightens or a holder
+/// settles.
 std::optional<RunUp> first_large_rise(const Trace& trace, double drop) {
   const auto [low, high] = std::ranges::minmax_element(trace.force);
   const double range = *high - *low;
   const double swing = std::max(drop > 0.0 ? 0.25 * drop : 0.1 * range, 8.0 * trace.noise);
   const double least = std::max(thresholds::kRunUp * drop, thresholds::kNoiseDrop * trace.noise);
+  constexpr double kShareOfLevel = 0.75;  // static friction is hardly below kinetic friction
+  const double level = median(trace.force);
   signal::TurningPoints turns(swing);
   std::size_t lowest = 0;  // of those before `looked`
   std::size_t looked = 0;
@@ -262,7 +266,8 @@ std::optional<RunUp> first_large_rise(const Trace& trace, double drop) {
     const std::size_t peak = turns.falls()[seen++].peak;
     for (; looked < peak; ++looked) lowest = trace.force[looked] < trace.force[lowest] ? looked : lowest;
     const double rise = trace.force[peak] - trace.force[lowest];
-    if (rise > std::max(least, drop > 0.0 ? 0.0 : 0.5 * range)) return RunUp{lowest, peak, rise};
+    const bool reaches_level = rise > kShareOfLevel * (level - trace.force[lowest]);
+    if (reaches_level && rise > std::max(least, drop > 0.0 ? 0.0 : 0.5 * range)) return RunUp{lowest, peak, rise};
   }
   return std::nullopt;
 }

@@ -70,7 +70,8 @@ TEST_CASE("k that the slope of the sticks contradicts is not identified, and its
   CHECK(of(fit, ParameterId::Stiffness).estimate.ci95->low == Approx(4000.0));
   CHECK(of(fit, ParameterId::Mass).estimate.ci95->low == Approx(4.8e-3));
   CHECK(of(fit, ParameterId::NaturalFrequency).status == ParameterStatus::Identified);
-  CHECK(sentence_of(pairs.front()) == "parameters.stiffness_N_per_m is 5000, cycles.stick_stiffness_N_per_m is 4000");
+  CHECK(sentence_of(pairs.front()) ==
+        "the stiffness k of the fit is 5000 N/m, the slope of the sticks over the speed is 4000 N/m");
 }
 
 TEST_CASE("values that agree within 4 standard errors, or 1 %, contradict nothing") {
@@ -136,6 +137,28 @@ TEST_CASE("k by the displacement makes k conditional where the two speeds differ
   const FitResult fit = with_audit(*analysis.fit, pairs);
   CHECK(of(fit, ParameterId::Stiffness).status == ParameterStatus::Conditional);
   CHECK(of(fit, ParameterId::Stiffness).estimate.ci95->high == Approx(5000.0 / 0.95));
+}
+
+TEST_CASE("the measured spacing includes the one at the speed of the displacement") {
+  Derived derived;
+  derived.pattern_spacing_m = symmetric(4e-4, 1e-6);
+  derived.impulse_rate_per_m = symmetric(2500.0, 6.0);
+  const std::vector<AuditPair> pairs =
+      own_audit(recording_at(0.01, Estimate{0.02, 1e-6, std::nullopt, {}}), analysis_with(5000.0));
+  const Derived audited = with_audit(derived, pairs);
+  CHECK(audited.pattern_spacing_m.ci95->high == Approx(8e-4));
+  CHECK(audited.impulse_rate_per_m.ci95->low == Approx(1250.0));
+}
+
+TEST_CASE("k includes the slope of sticks that differ from most") {
+  Analysis analysis = analysis_with(5000.0);
+  analysis.cycles.other_sticks = {9, 30, symmetric(4500.0, 3.0)};
+  const std::vector<AuditPair> pairs = own_audit(recording_at(0.01), analysis);
+  REQUIRE(pairs.size() == 2);
+  CHECK(pairs.back().pair == "stiffness_and_other_sticks");
+  const FitResult fit = with_audit(*analysis.fit, pairs);
+  CHECK(of(fit, ParameterId::Stiffness).status == ParameterStatus::Weak);
+  CHECK(of(fit, ParameterId::Stiffness).estimate.ci95->low == Approx(4500.0));
 }
 
 TEST_CASE("short sticks have no slope to compare") {

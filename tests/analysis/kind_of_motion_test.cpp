@@ -380,4 +380,57 @@ TEST_CASE("half of the falls no larger than noise makes them is faint, however m
   CHECK_FALSE(is_faint(falls({2.0, 2.0}, noise)));
 }
 
+/// Straight rises and falls in turn, with a little noise.
+std::vector<double> saw(double cycles, double samples, double rise_share) {
+  std::mt19937_64 random(8);
+  std::normal_distribution<double> normal(0.0, 0.003);
+  std::vector<double> force;
+  for (double place = 0.0; place < cycles; place += 1.0 / samples) {
+    const double phase = std::fmod(place, 1.0);
+    force.push_back(3.0 + (phase < rise_share ? phase / rise_share : (1.0 - phase) / (1.0 - rise_share)) +
+                    normal(random));
+  }
+  return force;
+}
+
+TEST_CASE("a force with the other sign is no oscillation, and the reason says so") {
+  const Analysis upright = analyze_and_fit(recorded(saw(40.0, 100.0, 0.9), 1000.0));
+  CHECK(upright.motion == MotionClass::StickSlip);
+  const Analysis reversed = analyze_and_fit(recorded(saw(40.0, 100.0, 0.1), 1000.0));
+  CHECK(reversed.motion == MotionClass::Undetermined);
+  CHECK_THAT(reversed.motion_reason, Catch::Contains("the other sign"));
+}
+
+TEST_CASE("a force that only rises is not known to slide, and one that has a trend does") {
+  std::mt19937_64 random(9);
+  std::normal_distribution<double> normal(0.0, 0.01);
+  std::vector<double> ramp, trend;
+  for (int i = 0; i < 5000; ++i) {
+    ramp.push_back(1e-3 * i + normal(random));
+    trend.push_back(5.0 + 2e-4 * i + normal(random));
+  }
+  CHECK(analyze_and_fit(recorded(ramp, 1000.0)).motion == MotionClass::Undetermined);
+  CHECK(analyze_and_fit(recorded(trend, 1000.0)).motion == MotionClass::SteadySliding);
+}
+
+TEST_CASE("sticks at another speed of the drive are told from the rest") {
+  // 30 cycles at one speed, then 20 whose sticks rise a tenth faster.
+  const double rate_Hz = 1000.0;
+  std::vector<double> force;
+  for (int cycle = 0; cycle < 50; ++cycle) {
+    const int samples = cycle < 30 ? 110 : 100;
+    for (int i = 0; i < samples; ++i) force.push_back(3.0 + 1.0 * i / samples);
+    for (int i = 0; i < 10; ++i) force.push_back(3.0 + 0.5 * (1.0 + std::cos(kPi * i / 10.0)));
+  }
+  std::mt19937_64 random(10);
+  std::normal_distribution<double> normal(0.0, 0.002);
+  for (double& value : force) value += normal(random);
+  const Analysis analysis = analyze_and_fit(recorded(force, rate_Hz));
+  const OtherSticks& others = analysis.cycles.other_sticks;
+  CHECK(others.count > 15);
+  CHECK(others.count <= 20);
+  CHECK(*others.stiffness.value == Approx(1.0 / 0.1 / 0.01).epsilon(0.01));
+  CHECK(*analysis.cycles.stick_stiffness.value == Approx(1.0 / 0.11 / 0.01).epsilon(0.01));
+}
+
 }  // namespace slipfit

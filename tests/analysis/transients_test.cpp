@@ -82,6 +82,23 @@ TEST_CASE("loading ramp, breakaway and ring-down are measured outside the slidin
   CHECK(holds(found.ring_down_damping_ratio, run.ring_ratio));
 }
 
+TEST_CASE("a small peak on the loading ramp is not the breakaway", "[transients]") {
+  std::mt19937_64 random(4);
+  std::normal_distribution<double> noise(0.0, 0.002);
+  std::vector<double> time_s, force;
+  for (int i = 0; i < 5000; ++i) {
+    const double t = 1e-3 * i;
+    const double slack = t < 0.5 ? 0.25 * std::sin(std::numbers::pi * t / 0.5) : 0.0;  // a line that tightens
+    const double load = t < 0.5 ? 0.0 : std::min(1.0, 2.0 * (t - 0.5));
+    const double peak = 0.2 * std::exp(-std::pow((t - 1.0) / 0.05, 2)) - 0.2 * std::exp(-std::pow((t - 1.2) / 0.05, 2));
+    time_s.push_back(t);
+    force.push_back(slack + load + peak + noise(random));
+  }
+  const Analysis analysis = analyze(test::recording_of(time_s, force, 0.001));
+  REQUIRE(analysis.transients.breakaway_force.value);
+  CHECK(*analysis.transients.breakaway_force.value == Approx(1.2).epsilon(0.05));
+}
+
 TEST_CASE("a recording without run-up and release has no transients", "[transients]") {
   const Recording whole = run_with_release({});
   const Analysis analysis = analyze(whole.part(6000, 22000));

@@ -134,7 +134,9 @@ std::vector<std::string> contradictions_of(const json& document) {
   }
   const auto check_audit = [&](const json& audited) {
     for (const json& pair : audited.value("audit", json::array())) {
-      const bool is_of_stiffness = pair["pair"] == "stiffness_and_sticks" || pair["pair"] == "speed_and_displacement";
+      const bool is_of_stiffness = pair["pair"] == "stiffness_and_sticks" ||
+                                   pair["pair"] == "stiffness_and_other_sticks" ||
+                                   pair["pair"] == "speed_and_displacement";
       if (pair["contradicts"] && is_of_stiffness) {
         check(pair["pair"].get<std::string>(), {"stiffness_N_per_m", "mass_kg"});
       }
