@@ -1,6 +1,7 @@
 #include "drafts.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -76,6 +77,17 @@ void notify_of_replaced(const slipfit::Conditions& stated, const slipfit::DraftE
   }
 }
 
+/// Says which speeds and loads nobody stated.
+void notify_of_drafted(const std::vector<std::string>& speeds_m_per_s, const std::vector<std::string>& loads_N,
+                       const DocumentOptions& document) {
+  std::string found;
+  if (!speeds_m_per_s.empty()) found = fmt::format("speeds of {} m/s", fmt::join(speeds_m_per_s, ", "));
+  if (!loads_N.empty()) {
+    found += fmt::format("{}normal forces of {} N", found.empty() ? "" : " and ", fmt::join(loads_N, ", "));
+  }
+  if (!found.empty()) document.notify("from the columns or names of the files: " + found);
+}
+
 void check_found(const slipfit::ManifestDraft& draft) {
   if (!draft.entries.empty()) return;
   const std::string why = draft.skipped.empty() ? "no files with a usual ending (csv, txt, xlsx, ...) in these folders"
@@ -97,6 +109,7 @@ slipfit::ManifestDraft draft_of(const std::vector<std::string>& paths, const sli
 std::vector<slipfit::ManifestEntry> entries_of(const slipfit::ManifestDraft& draft, const RecordingArguments& arguments,
                                                const DocumentOptions& document) {
   std::vector<slipfit::ManifestEntry> entries;
+  std::vector<std::string> speeds, loads;
   const std::size_t count = draft.entries.size();
   for (std::size_t i = 0; i < count; ++i) {
     const slipfit::DraftEntry& drafted = draft.entries[i];
@@ -118,7 +131,12 @@ std::vector<slipfit::ManifestEntry> entries_of(const slipfit::ManifestDraft& dra
           "manifest ({} --out runs.csv) and fill it in",
           drafted.file.string(), manifest_command({drafted.file.string()}));
     }
+    if (is_filled) speeds.push_back(fmt::format("{:.4g}", entry.conditions.speed_m_per_s));
+    if (drafted.normal_force_N && entry.conditions.normal_force_N == drafted.normal_force_N) {
+      loads.push_back(fmt::format("{:.4g}", *drafted.normal_force_N));
+    }
     entries.push_back(std::move(entry));
   }
+  notify_of_drafted(speeds, loads, document);
   return entries;
 }

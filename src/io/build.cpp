@@ -148,6 +148,7 @@ ThrownError no_speed(const OpenedFile& file) {
 
 /// Warns if a displacement moves at another speed than the stated one. `what` describes the displacement.
 void compare_speed(Part& part, double moved_m_per_s, const std::string& what) {
+  if (!part.conditions.speed_is_known) return;
   const double stated_m_per_s = part.conditions.speed_m_per_s;
   const double off_m_per_s = std::abs(moved_m_per_s - stated_m_per_s);
   if (!std::isfinite(off_m_per_s) || off_m_per_s <= kStatedTolerance * stated_m_per_s) return;
@@ -179,12 +180,34 @@ void state_speed(Part& part, const OpenedFile& file) {
   }
 }
 
+/// Warns if a displacement that goes one way does not move at one speed.
+void warn_of_changing_speed(Part& part, const std::string& what) {
+  constexpr std::size_t kBlocks = 16;
+  const std::vector<double>& places_m = part.rows.displacement_m;
+  const std::vector<double> speeds = block_speeds_m_per_s(part.rows.time_s, places_m, kBlocks);
+  const auto [least, most] = std::ranges::minmax_element(places_m);
+  const bool goes_one_way = std::abs(places_m.back() - places_m.front()) > 0.9 * (*most - *least);
+  if (speeds.size() < kBlocks / 2 || !goes_one_way) return;
+  const double slow = quantile_of(speeds, 0.25);
+  const double fast = quantile_of(speeds, 0.75);
+  if (!(slow > 0.0 && fast > 1.2 * slow)) return;
+  part.provenance.warnings.push_back(
+      {"speed_differs_from_displacement",
+       fmt::format(
+           "the stated speed is {:.6g} m/s, but {} moves at {:.3g} to {:.3g} m/s in the middle half of the time: "
+           "read parts of one speed with --window T0:T1",
+           part.conditions.speed_m_per_s, what, slow, fast)});
+}
+
 /// Error: speed_contradicted.
 void compare_with_displacement(Part& part, const OpenedFile& file) {
   if (part.rows.displacement_m.empty() || !part.conditions.speed_is_known) return;
   auto moved = steady_speed_m_per_s(part.rows);
-  if (!moved) return;
   const std::string name = describe(file.layout, file.choice.displacement->column);
+  if (!moved) {
+    warn_of_changing_speed(part, name);
+    return;
+  }
   check_unit_of_speed(part.conditions, *moved->value, name, file.name);
   compare_speed(part, *moved->value, name);
   part.provenance.moved_m_per_s = std::move(moved);

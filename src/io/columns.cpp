@@ -163,9 +163,9 @@ constexpr double kShortStep_d = 2e-5;
 GuessedUnit guess_time_unit(const Column& column) {
   const bool is_stamp = mentions(column.name.base, {"stamp", "stempel", "tick"});
   const double start = std::abs(column.first);
-  if (column.is_whole && start >= 1e17) return {"ns", "whole numbers of the size of nanoseconds since 1970"};
-  if (column.is_whole && start >= 1e14) return {"us", "whole numbers of the size of microseconds since 1970"};
-  if (column.is_whole && start >= 1e11) return {"ms", "whole numbers of the size of milliseconds since 1970"};
+  if (start >= 1e17) return {"ns", "of the size of nanoseconds since 1970"};
+  if (start >= 1e14) return {"us", "of the size of microseconds since 1970"};
+  if (start >= 1e11) return {"ms", "of the size of milliseconds since 1970"};
   const bool is_of_Excel = start >= 20000.0 && start <= 80000.0 && column.median_step < kShortStep_d;
   if (!column.is_whole && column.never_decreases && is_of_Excel) return {"d", "of the size of Excel's dates"};
   if (mentions(column.name.base, {"millis"})) return {"ms", "its name"};
@@ -490,6 +490,11 @@ std::optional<Channel> choose_side(const SideRole& role, const Layout& layout, c
                                    const Choice& choice, const std::string& file) {
   if (role.asked != nullptr && options.*role.asked) {
     const std::size_t column = find_column(layout, *(options.*role.asked), role.option, file);
+    if (column == choice.force.column) {
+      throw ThrownError(
+          {"conflicting_options", fmt::format("{}: {} is the force and cannot be that of {}, too; {}", file,
+                                              describe(layout, column), role.option, list_columns(layout))});
+    }
     if (auto channel = role.in_SI(layout, column, options)) return channel;
     throw ThrownError({"unknown_unit", fmt::format("{}: the unit of {}: '{}' is not {}; leave the option out", file,
                                                    describe(layout, column),

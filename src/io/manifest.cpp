@@ -517,6 +517,11 @@ void set_number(ManifestEntry& entry, const ManifestColumn& column, const std::s
         {"out_of_range", fmt::format("'{}' is {} zero", printable_utf8(cell), is_too_low ? "not above" : "below")});
   }
   if (!std::isfinite(number)) throw refusal("bad_number", cell, "a finite number");
+  const double speed_m_per_s = entry.conditions.speed_m_per_s;
+  if (column.field->said.column == "speed_se" && speed_m_per_s > 0.0 && number > 0.5 * speed_m_per_s) {
+    throw ThrownError({"out_of_range", fmt::format("'{}' is more than half of the speed, {:.4g} m/s",
+                                                   printable_utf8(cell), speed_m_per_s)});
+  }
   column.field->set_number(entry, number);
   if (column.field->said.column == "speed") {
     entry.conditions.speed_unit = column.scale ? column.unit : unit_in(cell);

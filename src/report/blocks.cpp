@@ -240,7 +240,8 @@ Block models_block(const FitResult& fit, ForceQuantity quantity) {
   }
   std::string residual = fmt::format("residual {} rms", quantity_text(fit.residual.rms, unit));
   if (const auto chi2 = fit.residual.reduced_chi2)
-    residual += fmt::format(", {:.2g} times the noise (reduced chi2 {:.3g})", std::sqrt(*chi2), *chi2);
+    residual += fmt::format(", {:.3g} times {} (reduced chi2 {:.3g})", std::sqrt(*chi2),
+                            fit.residual.whiteness_p ? "the noise" : "that of the recordings fitted alone", *chi2);
   block.sentences.push_back(residual);
   if (fit.residual.whiteness_p) block.sentences.push_back(whiteness_sentence(*fit.residual.whiteness_p));
   for (const std::string& condition : fit.conditional_on) block.sentences.push_back("assumed: " + printable(condition));

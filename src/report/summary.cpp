@@ -24,9 +24,9 @@ namespace {
 
 using documents::JsonNode;
 
-/// A sentence as a line of text ends: with a full stop.
+/// A sentence as a line of text ends: with a full stop, unless it is a question.
 std::string sentence(std::string text) {
-  if (!text.empty() && text.back() != '.') text += '.';
+  if (!text.empty() && text.back() != '.' && text.back() != '?') text += '.';
   return text;
 }
 
@@ -40,9 +40,10 @@ struct Screen {
   };
   std::string headline;
   std::vector<Row> rows{};
-  std::vector<std::pair<std::string, std::string>> open{};  ///< parameters that are not determined, and why
-  std::vector<std::vector<std::string>> recordings{};       ///< of a sweep: rows of their table
-  std::string reason{};                                     ///< of the kind of motion
+  std::vector<std::pair<std::string, std::string>> open{};     ///< parameters that are not determined, and why
+  std::vector<std::vector<std::string>> recordings{};          ///< of a sweep: rows of their table
+  std::string_view last_column = "predicted from the others";  ///< of that table
+  std::string reason{};                                        ///< of the kind of motion
   std::vector<std::string> sentences{};
   Warnings warnings{};
 
@@ -198,7 +199,7 @@ std::string text_of(const Screen& screen, const SummaryHints& hints) {
     rows.push_back({label, value_text(numbers), numbers.interval, status + notes.reference_to(note).numbers});
   }
   put_table({"", "value", "95 % interval", "status"}, rows);
-  put_table({"recording", "speed", std::string(kMeasured.front().words), "predicted from the others"},
+  put_table({"recording", "speed", std::string(kMeasured.front().words), std::string(screen.last_column)},
             screen.recordings);
   std::vector<std::string> below = open_parameters(screen, notes);
   below.insert(below.begin(), screen.reason);
@@ -301,8 +302,11 @@ std::string residual_sentence(const JsonNode& document, ForceQuantity quantity) 
   const std::optional<double> p = residual->number_at("whiteness_p");
   if (p && *p >= kLevel) return text + ", consistent with white noise.";
   constexpr double kAlike = 1.05;  // residual over noise that is not worth mentioning
-  if (chi2 && std::sqrt(*chi2) < kAlike && !p) return text + ", as large as the noise.";
-  if (chi2) text += fmt::format(", {:.2g} times the noise", std::sqrt(*chi2));
+  if (chi2 && std::sqrt(*chi2) < kAlike && !p) return text + ", as small as that of the recordings fitted alone.";
+  // A joint fit is compared with the fits of its recordings one by one.
+  const bool is_joint = document.known("recordings").has_value();
+  if (chi2 && is_joint) text += fmt::format(", {:.2f} times that of the recordings fitted alone", std::sqrt(*chi2));
+  if (chi2 && !is_joint) text += fmt::format(", {:.3g} times the noise", std::sqrt(*chi2));
   if (p) text += "; neighbouring residuals are correlated";
   return text + ".";
 }
@@ -355,12 +359,45 @@ void add_cycles(Screen& screen, const SummaryInput& input) {
   }
 }
 
+/// Adds the pattern on the worn surface and how it agrees with V / f.
+void add_surface(Screen& screen, const SummaryInput& input) {
+  screen.add_measured(kOnSurface.front(), estimate_of(input.document, kOnSurface.front()), input.conditions);
+  const std::optional<JsonNode> verdict = input.document.known("derived", "surface_verdict");
+  if (verdict) screen.sentences.push_back(sentence("Surface and force: " + printable(verdict->text())));
+}
+
+/// Adds the coefficients of friction, which depend on the zero of the sensor.
+void add_coefficients(Screen& screen, const SummaryInput& input) {
+  for (const Quantity& quantity : kCoefficients) {
+    const Estimate estimate = estimate_of(input.document, quantity);
+    if (input.zero_is_known) {
+      screen.add_measured(quantity, estimate, input.conditions);
+    } else if (estimate.value) {
+      screen.add_row(full_words(quantity), estimate_row(quantity, estimate, input.conditions),
+                     name_of(ParameterStatus::Conditional), estimate.note);
+    }
+  }
+}
+
 void add_sentences(Screen& screen, const SummaryInput& input) {
   if (input.document.has("model")) {
     screen.sentences.push_back(residual_sentence(input.document, input.conditions.quantity));
     screen.sentences.push_back(terms_text(input.document));
   }
   screen.sentences.push_back(facts_text(input.warnings));
+}
+
+/// Adds what the reader took for granted of units, clock and tables: a wrong guess makes every result wrong.
+void add_guesses(Screen& screen, const JsonNode& document) {
+  std::string guesses;
+  for (const JsonNode& assumed : document.elements_of("recording", "assumed")) {
+    const std::string text = printable(assumed.text());
+    const bool is_guess = text.find("assumed to be in") != std::string::npos ||
+                          text.find("are not used") != std::string::npos ||
+                          text.find("chooses another") != std::string::npos;
+    if (is_guess) guesses += (guesses.empty() ? "" : " ") + text;
+  }
+  screen.sentences.push_back(guesses);
 }
 
 MotionClass motion_of(const JsonNode& document) {
@@ -394,7 +431,8 @@ Screen screen_of_recording(const SummaryInput& input) {
   if (is_fitted && has_slips) add_parameters(screen, input);
   screen.add_measured(kMeasured.front(), estimate_of(document, kMeasured.front()), input.conditions);
   add_critical_speed(screen, input);
-  for (const Quantity& row : kCoefficients) screen.add_measured(row, estimate_of(document, row), input.conditions);
+  add_surface(screen, input);
+  add_coefficients(screen, input);
   const std::string reason = document.text_at("status_reason");
   if (motion != MotionClass::StickSlip && !reason.empty()) screen.reason = sentence("Reason: " + printable(reason));
   if (!is_fitted && has_slips) add_cycles(screen, input);
@@ -403,30 +441,35 @@ Screen screen_of_recording(const SummaryInput& input) {
   } else {
     screen.sentences = {facts_text(input.warnings)};
   }
+  add_guesses(screen, document);
   return screen;
 }
 
 Screen screen_of_sweep(const SummaryInput& input, const std::vector<JsonNode>& recordings) {
   const std::string name = printable(input.document.text_at("id"));
-  if (!input.document.has("model")) {
-    Screen screen{fmt::format("{}: {} recordings, no joint fit", name, recordings.size())};
+  const bool is_fitted = input.document.has("model");
+  Screen screen{
+      fmt::format("{}: {} recordings{}", name, recordings.size(), is_fitted ? " fitted together" : ", no joint fit")};
+  if (is_fitted) {
+    add_parameters(screen, input);
+    add_critical_speed(screen, input);
+    add_sentences(screen, input);
+  } else {
     screen.reason = sentence("Reason: " + input.document.text_at("status_reason"));
-    return screen;
+    screen.last_column = "frequency";
   }
-  Screen screen{fmt::format("{}: {} recordings fitted together", name, recordings.size())};
-  add_parameters(screen, input);
-  add_critical_speed(screen, input);
-  add_sentences(screen, input);
-  constexpr std::size_t kMostListed = 8;
-  if (recordings.size() > kMostListed) return screen;
+  const std::size_t most_listed = is_fitted ? 8 : 16;
+  if (recordings.size() > most_listed) return screen;
   for (const JsonNode& recording : recordings) {
     const std::string motion = recording.text_at("status");
     const auto predicted = recording.known("joint", "spacing_left_out_m");
+    const Estimate last =
+        is_fitted ? (predicted ? predicted->estimate() : Estimate{}) : estimate_of(recording, kFrequency);
     screen.recordings.push_back(
         {printable(recording.text_at("id")), speed_text(conditions_of(recording.member("recording"))),
          motion == name_of(MotionClass::StickSlip) ? estimate_text(estimate_of(recording, kMeasured.front()), "m")
                                                    : plain_words(motion),
-         estimate_text(predicted ? predicted->estimate() : Estimate{}, "m")});
+         estimate_text(last, is_fitted ? "m" : "Hz")});
   }
   return screen;
 }

@@ -47,6 +47,7 @@ TEST_CASE("a speed that cannot be a driving speed is refused") {
     check_refused({command, file, "--speed", "60rpm", "--radius", "0"}, "--radius");
     check_refused({command, file, "--speed", "60rpm", "--radius", "-3mm"}, "--radius");
     check_refused({command, file, "--speed", "1", "--speed-uncertainty", "-1%"}, "--speed-uncertainty");
+    check_refused({command, file, "--speed", "1", "--speed-uncertainty", "60%"}, "more than half of the speed");
   }
 }
 

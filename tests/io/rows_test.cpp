@@ -186,12 +186,16 @@ TEST_CASE("a stated speed that a displacement contradicts by the factor of a uni
   CHECK(*recording.provenance().moved_m_per_s->value == Approx(2e-3));
 }
 
-TEST_CASE("a displacement that does not run at one speed is not compared") {
-  std::string content = "time [s],displacement [mm],force [N]\n";
+TEST_CASE("a displacement that changes its speed is warned of, and one that moves to and fro is not compared") {
+  std::string faster = "time [s],displacement [mm],force [N]\n";
+  std::string to_and_fro = faster;
   for (int i = 0; i < 500; ++i) {
-    content += std::to_string(0.01 * i) + "," + std::to_string(1e-4 * i * i) + "," + std::to_string(i % 5) + "\n";
+    const std::string force = "," + std::to_string(i % 5) + "\n";
+    faster += std::to_string(0.01 * i) + "," + std::to_string(1e-4 * i * i) + force;
+    to_and_fro += std::to_string(0.01 * i) + "," + std::to_string(20.0 * std::sin(0.02 * i)) + force;
   }
-  CHECK_FALSE(warns(read_ok(content, {}, at_speed(1.0)), "speed_differs_from_displacement"));
+  CHECK(warns(read_ok(faster, {}, at_speed(1e-3)), "speed_differs_from_displacement"));
+  CHECK_FALSE(warns(read_ok(to_and_fro, {}, at_speed(1e-3)), "speed_differs_from_displacement"));
 }
 
 TEST_CASE("a first row with a cell that is no number is no row of units") {

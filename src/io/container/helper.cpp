@@ -274,7 +274,8 @@ Container arrays_in(const std::string& kind, TextStream packed, const std::strin
       read = std::move(one.first);
       text.bytes = std::move(one.bytes);
     }
-    text.assumed.push_back("Of the file '" + printable_utf8(read) + "' was read.");
+    text.assumed.push_back("Of the tables in the file '" + printable_utf8(read) +
+                           "' was read; --variable chooses another.");
     return text;
   };
   return {open, [=] {
