@@ -372,7 +372,7 @@ double mean_drop(std::span<const Cycle> cycles) {
 }  // namespace
 
 std::optional<ShortTest> test_level_repeats(std::span<const Cycle> cycles, std::optional<double> speed_m_per_s) {
-  if (cycles.size() < thresholds::kFewestOfWave) return std::nullopt;
+  if (cycles.size() < thresholds::kFewestOfLine) return std::nullopt;
   cycles = cycles.first(std::min(cycles.size(), kMostSlips));
   const auto count = static_cast<double>(cycles.size());
   const Series levels = levels_of(cycles);

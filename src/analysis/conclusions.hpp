@@ -56,7 +56,7 @@ std::vector<ShortTest> run_short_tests(const Recording& recording, const Analysi
 
 /// Does the force level of the slips repeat over the path (docs/accuracy.md)? `level_repeats`: the path from one
 /// repetition to the next, in m. Beyond chance only where neither white scatter of the levels nor a random walk makes
-/// such a sine. Empty below thresholds::kFewestOfWave slips.
+/// such a sine. Empty below thresholds::kFewestOfLine slips.
 std::optional<ShortTest> test_level_repeats(std::span<const Cycle> cycles, std::optional<double> speed_m_per_s);
 
 }  // namespace slipfit

@@ -19,6 +19,7 @@ namespace {
 /// Returns the median of slopes over the speed with its error.
 Estimate median_slope(const std::vector<double>& slopes_N_per_s, double speed_m_per_s) {
   std::vector<double> off;
+  off.reserve(slopes_N_per_s.size());
   const double middle = median(slopes_N_per_s);
   for (const double slope : slopes_N_per_s) off.push_back(std::abs(slope - middle));
   constexpr double kMedianToSe = signal::kMedianToSigma * 1.2533;  // error of a median over that of a mean
@@ -49,7 +50,7 @@ OtherSticks other_sticks(const std::vector<Rise>& rises, double speed_m_per_s) {
   }
   const std::vector<double>& more = lower.size() > higher.size() ? lower : higher;
   constexpr double kFew = 0.05;
-  const double least = std::max(2.0, kFew * static_cast<double>(rises.size()));
+  const double least = std::max(3.0, kFew * static_cast<double>(rises.size()));
   if (static_cast<double>(more.size()) < least) return {};
   return {more.size(), rises.size(), median_slope(more, speed_m_per_s)};
 }
@@ -66,6 +67,7 @@ void add_stick_stiffness(const Recording& recording, const Segmentation& segment
     return;
   }
   std::vector<double> slopes;
+  slopes.reserve(rises.size());
   for (const Rise& rise : rises) slopes.push_back(rise.middle_N_per_s);
   const double speed_m_per_s = recording.conditions().speed_m_per_s;
   result.stick_stiffness = median_slope(slopes, speed_m_per_s);

@@ -382,8 +382,9 @@ inline constexpr double kNoPhase = 0.5;
 /// belongs to the shape of the cycles. [1; convention: half]
 inline constexpr double kUnlikeCycles = 0.5;
 
-/// Fewest slips with which a wave of the level is sought. [count; derived: exp(-0.25 n) is a percent of chance there]
-inline constexpr std::size_t kFewestOfWave = 16;
+/// Fewest cycles with which a line, or a wave of the level, is sought. [count; derived: exp(-0.25 n) is a percent of
+/// chance there]
+inline constexpr std::size_t kFewestOfLine = 16;
 
 /// Power of a line over that of the strongest in the same residuals, below which it may be an image of it. [1;
 /// calibrated: images are below 0.022 for 60 simulated recordings with hum]

@@ -50,21 +50,6 @@ TEST_CASE("a drive that runs unevenly is said, and its line is fitted with the c
   CHECK(parameter(analysis, "natural_frequency_rad_per_s").status != ParameterStatus::Identified);
 }
 
-TEST_CASE("a line is found among few slips, too") {
-  Scene few = scene();
-  few.cycles = 12.0;
-  const Recording recording = record(few);
-  std::vector<double> force(recording.force().begin(), recording.force().end());
-  const double line_Hz = 20.37 / recording.duration_s() * few.cycles;
-  for (std::size_t i = 0; i < force.size(); ++i) {
-    force[i] += 0.03 * std::sin(2.0 * std::numbers::pi * line_Hz * recording.time_s()[i]);
-  }
-  const Analysis analysis = analyze_and_fit(test::with_force(recording, std::move(force)));
-  CHECK(has_warning(analysis, "hum_fitted"));
-  check_truth(analysis, "stiffness_N_per_m", few.stiffness);
-  check_truth(analysis, "natural_frequency_rad_per_s", few.omega);
-}
-
 TEST_CASE("sticks that flatten at both ends are curved, though their halves are alike") {
   const Scene s{.jitter = 0.02, .noise = 0.01};
   const Recording straight = record(s);

@@ -380,10 +380,10 @@ class NewLines {
     const Rest unlike(recording, fit, without_repeats(recording, fit, rest.values()));
     return unlike.power_at(line_Hz) > thresholds::kUnlikeCycles * rest.power_at(line_Hz);
   }
-  /// The strongest line of the rest where the slips have no line: with another phase at the onset of each. Between runs
-  /// of cycles lines have images.
+  /// The strongest line of the rest where the slips have no line: with another phase at the onset of each. Among few
+  /// slips this is chance, and between runs of cycles lines have images.
   [[nodiscard]] std::optional<double> line_in_residuals(const BlockFit& fit, const Rest& rest) const {
-    if (rest.runs().size() > 1) return std::nullopt;
+    if (fit.size() < thresholds::kFewestOfLine || rest.runs().size() > 1) return std::nullopt;
     const double span_s = fit.state(fit.size() - 1).onset_s - fit.state(0).onset_s;
     const double slips_Hz = static_cast<double>(fit.size() - 1) / span_s;
     const std::optional<double> line_Hz = spectrum_.strongest(slips_Hz, resolution_Hz_);

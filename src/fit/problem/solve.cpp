@@ -59,7 +59,7 @@ class Bundle {
   [[nodiscard]] bool add(std::size_t recording, std::size_t first_cycle, Point& point) const;
   /// Writes [J r]' [J r] of a cycle with [J r] = `lines`, as Elimination takes it, and returns the cycle's part of the
   /// sum.
-  [[nodiscard]] double put_products(const Eigen::MatrixXd& lines, Eigen::Ref<RowMajor> normal) const;
+  [[nodiscard]] static double put_products(const Eigen::MatrixXd& lines, Eigen::Ref<RowMajor> normal);
   void add_steady(Point& point) const;
 
   const Problem& problem_;
@@ -182,7 +182,7 @@ bool Bundle::add(std::size_t recording, std::size_t first_cycle, Point& point) c
   return true;
 }
 
-double Bundle::put_products(const Eigen::MatrixXd& lines, Eigen::Ref<RowMajor> normal) const {
+double Bundle::put_products(const Eigen::MatrixXd& lines, Eigen::Ref<RowMajor> normal) {
   products_of(lines, normal);
   const auto residuals = lines.rightCols<1>();
   const HuberWeight weight = huber_weight(residuals.norm(), static_cast<std::size_t>(lines.rows()));
