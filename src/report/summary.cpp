@@ -363,19 +363,17 @@ void add_cycles(Screen& screen, const SummaryInput& input) {
 void add_surface(Screen& screen, const SummaryInput& input) {
   screen.add_measured(kOnSurface.front(), estimate_of(input.document, kOnSurface.front()), input.conditions);
   const std::optional<JsonNode> verdict = input.document.known("derived", "surface_verdict");
-  if (verdict) screen.sentences.push_back(sentence("Surface and force: " + printable(verdict->text())));
+  if (verdict) screen.sentences.push_back(sentence("Worn surface: " + printable(verdict->text())));
 }
 
 /// Adds the coefficients of friction, which depend on the zero of the sensor.
 void add_coefficients(Screen& screen, const SummaryInput& input) {
   for (const Quantity& quantity : kCoefficients) {
     const Estimate estimate = estimate_of(input.document, quantity);
-    if (input.zero_is_known) {
-      screen.add_measured(quantity, estimate, input.conditions);
-    } else if (estimate.value) {
-      screen.add_row(full_words(quantity), estimate_row(quantity, estimate, input.conditions),
-                     name_of(ParameterStatus::Conditional), estimate.note);
-    }
+    if (!estimate.value) continue;
+    screen.add_row(fmt::format("coefficient, {}", quantity.words), estimate_row(quantity, estimate, input.conditions),
+                   input.zero_is_known ? "measured" : name_of(ParameterStatus::Conditional),
+                   input.zero_is_known ? "" : estimate.note);
   }
 }
 
