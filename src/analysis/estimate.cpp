@@ -176,10 +176,14 @@ Estimates against_drive(const Recording& recording, Estimates estimates, const F
 
 }  // namespace
 
+double used_share(const FitResult& fit) {
+  const auto used = static_cast<double>(std::ranges::count_if(fit.cycles, &Cycle::used));
+  const auto offered = static_cast<double>(std::ranges::count_if(fit.cycles, &Cycle::selected));
+  return offered > 0.0 ? used / offered : 1.0;
+}
+
 bool leaves_out_most(const FitResult& fit) {
-  const auto used = std::ranges::count_if(fit.cycles, [](const Cycle& cycle) { return cycle.used; });
-  const auto offered = std::ranges::count_if(fit.cycles, [](const Cycle& cycle) { return cycle.selected; });
-  return 2 * used < offered;
+  return used_share(fit) < 0.5;
 }
 
 Estimates estimate_frequency(const Detected& detected) {

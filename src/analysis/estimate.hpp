@@ -17,6 +17,9 @@ struct Estimates {
   double fit_s = 0.0;                  ///< seconds that the fit took
 };
 
+/// Returns the share of the cycles offered to a fit that it uses; 1 where none was offered.
+double used_share(const FitResult& fit);
+
 /// Returns whether the fit uses less than half of the cycles that it was offered: it says nothing of the slips then.
 bool leaves_out_most(const FitResult& fit);
 

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "analysis/detect.hpp"
+#include "analysis/estimate.hpp"
 #include "core/statistics.hpp"
 #include "core/thresholds.hpp"
 #include "signal/smoothing.hpp"
@@ -260,13 +261,6 @@ Estimate including(Estimate estimate, const Estimate& other) {
   return estimate;
 }
 
-/// Cycles that the fit leaves out may have another period than those that it fits.
-bool fits_most_cycles(const FitResult& fit) {
-  constexpr double kMost = 0.8;
-  const auto used = static_cast<double>(std::ranges::count_if(fit.cycles, &Cycle::used));
-  return used >= kMost * static_cast<double>(fit.cycles.size());
-}
-
 }  // namespace
 
 FrequencyReport quote_frequency(const Recording& recording, const Signals& signals,
@@ -293,7 +287,8 @@ FrequencyReport quote_frequency(const Recording& recording, const Signals& signa
       report.quoted = counted;
     } else {
       report = fitted ? *fitted : of_trace(recording, signals, classification);
-      if (fitted && !fits_most_cycles(*fit)) report.quoted = including(report.quoted, counted);
+      constexpr double kMost = 0.8;  // cycles that the fit leaves out may have another period
+      if (fitted && used_share(*fit) < kMost) report.quoted = including(report.quoted, counted);
     }
   }
   report.spectral = signals.spectral;

@@ -228,7 +228,11 @@ Block quality_block(const Recording& recording, const Analysis& analysis) {
   return block;
 }
 
-Block models_block(const FitResult& fit, ForceQuantity quantity) {
+const char* reference_of_residuals(FitKind kind) {
+  return kind == FitKind::Single ? "the noise" : "that of the recordings fitted alone";
+}
+
+Block models_block(const FitResult& fit, ForceQuantity quantity, FitKind kind) {
   Block block{"models", "Models compared"};
   const std::string unit = force_unit(quantity);
   for (const Candidate& candidate : fit.candidates) {
@@ -240,8 +244,8 @@ Block models_block(const FitResult& fit, ForceQuantity quantity) {
   }
   std::string residual = fmt::format("residual {} rms", quantity_text(fit.residual.rms, unit));
   if (const auto chi2 = fit.residual.reduced_chi2)
-    residual += fmt::format(", {:.3g} times {} (reduced chi2 {:.3g})", std::sqrt(*chi2),
-                            fit.residual.whiteness_p ? "the noise" : "that of the recordings fitted alone", *chi2);
+    residual +=
+        fmt::format(", {:.3g} times {} (reduced chi2 {:.3g})", std::sqrt(*chi2), reference_of_residuals(kind), *chi2);
   block.sentences.push_back(residual);
   if (fit.residual.whiteness_p) block.sentences.push_back(whiteness_sentence(*fit.residual.whiteness_p));
   for (const std::string& condition : fit.conditional_on) block.sentences.push_back("assumed: " + printable(condition));
@@ -380,7 +384,7 @@ std::vector<ShownParameter> shown_parameters(const FitResult& fit) {
 namespace {
 
 /// Returns the table of parameters; `caution` follows the heading.
-std::string parameters_text(const FitResult& fit, ForceQuantity quantity, const std::string& caution) {
+std::string parameters_text(const FitResult& fit, ForceQuantity quantity, FitKind kind, const std::string& caution) {
   Table table({Align::Left, Align::Right, Align::Left, Align::Left, Align::Left});
   table.add({"", "value", "unit", "95 % interval", "status"});
   for (const ShownParameter& parameter : shown_parameters(fit)) {
@@ -389,7 +393,7 @@ std::string parameters_text(const FitResult& fit, ForceQuantity quantity, const 
   }
   std::string text = fmt::format("\nParameters{}\n", caution) + table.text() + notes_text(fit.parameters);
   for (const std::string& meaning : status_meanings(fit.parameters)) text += "  " + meaning + "\n";
-  return text + text_of(models_block(fit, quantity)) + text_of(correlations_block(fit));
+  return text + text_of(models_block(fit, quantity, kind)) + text_of(correlations_block(fit));
 }
 
 std::string parameters_text(const Recording& recording, const Analysis& analysis) {
@@ -398,7 +402,7 @@ std::string parameters_text(const Recording& recording, const Analysis& analysis
     return "\nParameters\n  none: the model describes stick-slip, which this recording does not show\n";
   }
   const bool is_doubtful = analysis.motion == MotionClass::Undetermined;
-  return parameters_text(*analysis.fit, recording.conditions().quantity,
+  return parameters_text(*analysis.fit, recording.conditions().quantity, FitKind::Single,
                          is_doubtful ? " (unreliable: the motion may not be stick-slip)" : "");
 }
 
@@ -425,7 +429,7 @@ std::string to_text(std::span<const SweepEntry> entries, const SweepAnalysis& sw
   std::string text = fmt::format("{}: {} recordings fitted together\n", printable(name), entries.size());
   if (!sweep.fit)
     text = fmt::format("{}: {} recordings, no joint fit: {}\n", printable(name), entries.size(), sweep.fit_reason);
-  if (sweep.fit) text += parameters_text(sweep.fit->result, ForceQuantity::Force_N, "");
+  if (sweep.fit) text += parameters_text(sweep.fit->result, ForceQuantity::Force_N, FitKind::Sweep, "");
   text += recordings_text(entries, sweep) + text_of(repeats_block(sweep.repeats));
   if (sweep.fit || sweep.derived.observed_end) {
     text += "\nEnd of stick-slip\n" + critical_speed_text(sweep.derived.critical_speed_m_per_s,

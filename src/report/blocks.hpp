@@ -37,7 +37,9 @@ struct Block {
 Block coefficients_block(const std::optional<Coefficients>& coefficients);
 Block quality_block(const Recording& recording, const Analysis& analysis);
 /// The models that were compared, what the chosen one leaves over, and what it assumes.
-Block models_block(const FitResult& fit, ForceQuantity quantity);
+Block models_block(const FitResult& fit, ForceQuantity quantity, FitKind kind);
+/// What the residuals of a fit are compared with: a joint fit with the fits of its recordings one by one.
+const char* reference_of_residuals(FitKind kind);
 /// Returns the pairs of parameters that the data hardly distinguish, the closest first; empty if there are none.
 Block correlations_block(const FitResult& fit);
 /// Returns the block of the recordings at one speed.

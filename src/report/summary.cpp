@@ -302,11 +302,9 @@ std::string residual_sentence(const JsonNode& document, ForceQuantity quantity) 
   const std::optional<double> p = residual->number_at("whiteness_p");
   if (p && *p >= kLevel) return text + ", consistent with white noise.";
   constexpr double kAlike = 1.05;  // residual over noise that is not worth mentioning
-  if (chi2 && std::sqrt(*chi2) < kAlike && !p) return text + ", as small as that of the recordings fitted alone.";
-  // A joint fit is compared with the fits of its recordings one by one.
-  const bool is_joint = document.known("recordings").has_value();
-  if (chi2 && is_joint) text += fmt::format(", {:.2f} times that of the recordings fitted alone", std::sqrt(*chi2));
-  if (chi2 && !is_joint) text += fmt::format(", {:.3g} times the noise", std::sqrt(*chi2));
+  const char* const reference = reference_of_residuals(document.has("recordings") ? FitKind::Sweep : FitKind::Single);
+  if (chi2 && std::sqrt(*chi2) < kAlike && !p) return text + fmt::format(", as large as {}.", reference);
+  if (chi2) text += fmt::format(", {:.3g} times {}", std::sqrt(*chi2), reference);
   if (p) text += "; neighbouring residuals are correlated";
   return text + ".";
 }

@@ -168,7 +168,8 @@ std::string figures_part(std::span<const Figure> figures) {
 std::string models_part(const Source& source) {
   if (!source.analysis.fit || !shows_cycles(source.analysis)) return {};
   const FitResult& fit = *source.analysis.fit;
-  return block_part(models_block(fit, source.recording.conditions().quantity)) + block_part(correlations_block(fit));
+  return block_part(models_block(fit, source.recording.conditions().quantity, FitKind::Single)) +
+         block_part(correlations_block(fit));
 }
 
 /// Tables that the text report has, too, folded away.
