@@ -36,7 +36,6 @@ enum class Regularity { Regular, Irregular, Clocked };
 /// drifted.
 struct OtherSticks {
   std::size_t count = 0;  ///< 0: none
-  std::size_t of = 0;     ///< all sticks
   Estimate stiffness;     ///< N/m: their slope over the speed
 };
 

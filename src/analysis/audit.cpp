@@ -142,50 +142,59 @@ Estimate stiffness(const Subject& of) {
 Estimate quoted(const Subject& of) {
   return of.analysis.frequency.quoted;
 }
-Estimate counted(const Subject& of) {
+Estimate counted_frequency(const Subject& of) {
   return of.analysis.frequency.counted;
 }
 
-/// A pair of quantities that are the same: where the document has each, and the parameters that a contradiction puts in
-/// question (none: the quoted frequency).
+/// One of two quantities that are the same: its place in the document, its name in a sentence, and its source.
+struct Side {
+  std::string_view place, words;
+  Estimate (*estimate)(const Subject&);
+};
+
+constexpr Side kStiffness{"parameters.stiffness_N_per_m", "the stiffness k of the fit", stiffness};
+constexpr Side kQuoted{"frequency.value_Hz", "the quoted frequency", quoted};
+
+/// A pair of them, and the parameters that a contradiction puts in question (none: the quoted frequency).
 struct Row {
-  std::string_view pair, first_of, second_of;
+  std::string_view pair;
+  Side first, second;
+  std::string_view unit;
   std::span<const Concern> concerns;
-  std::string_view first_words, second_words, unit;
-  Estimate (*first)(const Subject&);
-  Estimate (*second)(const Subject&);
   ParameterStatus highest = ParameterStatus::Weak;
+  double spacing_power = 0.0;  ///< the measured spacing is proportional to this power of the audited quantity
 };
 
 constexpr std::array kRows = std::to_array<Row>({
-    {"stiffness_and_sticks", "parameters.stiffness_N_per_m", "cycles.stick_stiffness_N_per_m", kOfStiffness,
-     "the stiffness k of the fit", "the slope of the sticks over the speed", "N/m", stiffness, stiffness_by_sticks},
-    {"stiffness_and_other_sticks", "parameters.stiffness_N_per_m", "slope of the sticks that differ, over the speed",
-     kOfStiffness, "the stiffness k of the fit", "the slope of other sticks over the speed", "N/m", stiffness,
-     stiffness_by_other_sticks},
-    {"speed_and_displacement", "recording.speed_m_per_s", "speed of the displacement column", kOfSpeed,
-     "the stated speed", "the speed of the displacement column", "m/s", stated_speed, speed_of_displacement,
-     ParameterStatus::Conditional},
-    {"mass_and_stated_mass", "secant of the sticks / w_n^2", "recording.mass_kg", kOfMass,
-     "the mass by the secant of the sticks over w_n^2", "the stated mass", "kg", mass_by_secant, stated_mass},
-    {"frequency_and_count",
-     "frequency.value_Hz",
-     "frequency.counted",
-     {},
-     "the quoted frequency",
-     "the frequency by counting",
-     "Hz",
-     quoted,
-     counted},
+    {"stiffness_and_sticks",
+     kStiffness,
+     {"cycles.stick_stiffness_N_per_m", "the slope of the sticks over the speed", stiffness_by_sticks},
+     "N/m",
+     kOfStiffness},
+    {"stiffness_and_other_sticks",
+     kStiffness,
+     {"slope of the sticks that differ, over the speed", "the slope of other sticks over the speed",
+      stiffness_by_other_sticks},
+     "N/m",
+     kOfStiffness},
+    {"speed_and_displacement",
+     {"recording.speed_m_per_s", "the stated speed", stated_speed},
+     {"speed of the displacement column", "the speed of the displacement column", speed_of_displacement},
+     "m/s",
+     kOfSpeed,
+     ParameterStatus::Conditional,
+     1.0},
+    {"mass_and_stated_mass",
+     {"secant of the sticks / w_n^2", "the mass by the secant of the sticks over w_n^2", mass_by_secant},
+     {"recording.mass_kg", "the stated mass", stated_mass},
+     "kg",
+     kOfMass},
+    {"frequency_and_count", kQuoted, {"frequency.counted", "the frequency by counting", counted_frequency}, "Hz", {}},
     {"frequency_and_spectrum",
-     "frequency.value_Hz",
-     "frequency.spectral",
-     {},
-     "the quoted frequency",
-     "the frequency of the spectrum",
+     kQuoted,
+     {"frequency.spectral", "the frequency of the spectrum", frequency_by_spectrum},
      "Hz",
-     quoted,
-     frequency_by_spectrum},
+     {}},
 });
 
 const Row& row_of(const AuditPair& pair) {
@@ -209,12 +218,9 @@ bool contradict(const Estimate& first, const Estimate& second) {
          difference > thresholds::kNegligible * std::min(std::abs(*first.value), std::abs(*second.value));
 }
 
-void include(Estimate& estimate, double value) {
-  if (!estimate.value) return;
-  const Interval ci95 = estimate.ci95.value_or(Interval{*estimate.value, *estimate.value});
-  estimate.ci95 = Interval{std::min(ci95.low, value), std::max(ci95.high, value)};
-  const double reach = std::max(estimate.ci95->high - *estimate.value, *estimate.value - estimate.ci95->low);
-  estimate.standard_error = std::max(estimate.standard_error.value_or(0.0), reach / kNormalQuantile);
+/// Lets the interval reach the same multiple of the value; nothing where there is none.
+void include(Estimate& estimate, double factor) {
+  if (estimate.value) estimate = including(std::move(estimate), factor * *estimate.value);
 }
 
 /// Never a higher status.
@@ -264,8 +270,8 @@ void widen(ModelEstimate& model, std::span<const Concern> concerns, double log_r
 std::string sentence_of(const AuditPair& pair) {
   const std::string place = pair.recording.empty() ? "" : fmt::format("recording '{}': ", pair.recording);
   const Row& row = row_of(pair);
-  return fmt::format("{}{} is {:.4g} {}, {} is {:.4g} {}", place, row.first_words, *pair.first.value, row.unit,
-                     row.second_words, *pair.second.value, row.unit);
+  return fmt::format("{}{} is {:.4g} {}, {} is {:.4g} {}", place, row.first.words, *pair.first.value, row.unit,
+                     row.second.words, *pair.second.value, row.unit);
 }
 
 std::vector<AuditPair> audit_of(const Recording& recording, const Analysis& analysis, const FitResult& fit) {
@@ -273,8 +279,8 @@ std::vector<AuditPair> audit_of(const Recording& recording, const Analysis& anal
   if (analysis.motion != MotionClass::StickSlip || !analysis.fit) return pairs;
   const Subject subject{recording, analysis, fit};
   for (const Row& row : kRows) {
-    AuditPair pair{std::string(row.pair), std::string(row.first_of), std::string(row.second_of), row.first(subject),
-                   row.second(subject)};
+    AuditPair pair{std::string(row.pair), std::string(row.first.place), std::string(row.second.place),
+                   row.first.estimate(subject), row.second.estimate(subject)};
     if (!has_error(pair.first) || !has_error(pair.second)) continue;
     pair.contradicts = contradict(pair.first, pair.second);
     pairs.push_back(std::move(pair));
@@ -303,9 +309,7 @@ FitResult with_audit(FitResult fit, const std::vector<AuditPair>& pairs) {
       for (Parameter& parameter : fit.parameters) {
         if (parameter.id != concern.id || parameter.status == ParameterStatus::Fixed) continue;
         lower(parameter, row.highest);
-        if (is_widened && parameter.estimate.value) {
-          include(parameter.estimate, *parameter.estimate.value * std::pow(ratio, concern.power));
-        }
+        if (is_widened) include(parameter.estimate, std::pow(ratio, concern.power));
         add_note(parameter.estimate.note, "contradicted: " + sentence_of(*pair));
       }
     }
@@ -316,18 +320,19 @@ FitResult with_audit(FitResult fit, const std::vector<AuditPair>& pairs) {
 
 Derived with_audit(Derived derived, const std::vector<AuditPair>& pairs) {
   for (const AuditPair& pair : pairs) {
-    if (!pair.contradicts || row_of(pair).first != stated_speed) continue;
-    const double ratio = *pair.second.value / *pair.first.value;
-    if (derived.pattern_spacing_m.value) include(derived.pattern_spacing_m, ratio * *derived.pattern_spacing_m.value);
-    if (derived.impulse_rate_per_m.value)
-      include(derived.impulse_rate_per_m, *derived.impulse_rate_per_m.value / ratio);
+    const double power = row_of(pair).spacing_power;
+    if (!pair.contradicts || power == 0.0) continue;
+    const double factor = std::pow(*pair.second.value / *pair.first.value, power);
+    include(derived.pattern_spacing_m, factor);
+    include(derived.impulse_rate_per_m, 1.0 / factor);
   }
   return derived;
 }
 
 FrequencyReport with_audit(FrequencyReport frequency, const std::vector<AuditPair>& pairs) {
   for (const AuditPair& pair : pairs) {
-    if (pair.contradicts && row_of(pair).concerns.empty()) include(frequency.quoted, *pair.second.value);
+    if (pair.contradicts && row_of(pair).concerns.empty())
+      include(frequency.quoted, *pair.second.value / *pair.first.value);
   }
   return frequency;
 }

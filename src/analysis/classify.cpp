@@ -9,6 +9,7 @@
 #include "analysis/detect.hpp"
 #include "analysis/estimate.hpp"
 #include "analysis/harmonic_null.hpp"
+#include "core/counted.hpp"
 #include "core/statistics.hpp"
 #include "core/thresholds.hpp"
 #include "signal/smoothing.hpp"
@@ -89,28 +90,23 @@ bool is_only_loaded(const Recording& recording) {
   const std::span<const double> force = recording.force();
   const LineSums line = line_sums(time_s, force);
   const double change = std::abs(line.slope()) * recording.duration_s();
-  const double largest =
-      std::max(std::abs(*std::ranges::max_element(force)), std::abs(*std::ranges::min_element(force)));
-  if (!(change > kShare * largest)) return false;
+  const auto [low, high] = std::ranges::minmax_element(force);
+  if (!(change > kShare * std::max(std::abs(*low), std::abs(*high)))) return false;
   constexpr double kStraight = 0.05;  // rms about the line over the change; 0.1 where half is flat
   return std::sqrt(line.variance()) < kStraight * change;
-}
-
-/// "one slip", "2 slips".
-std::string counted(std::size_t count, const char* what) {
-  return count == 1 ? fmt::format("one {}", what) : fmt::format("{} {}s", count, what);
 }
 
 std::optional<Classification> by_counts(const Recording& recording, const Segmentation& segmentation,
                                         const SpectralFrequency& spectral) {
   const std::size_t count = segmentation.slips.size();
-  if (count == 0 && is_only_loaded(recording)) {
+  if (count == 0) {
+    if (!is_only_loaded(recording))
+      return Classification{MotionClass::SteadySliding, "the force has no drops larger than its noise"};
     return Classification{
         MotionClass::Undetermined,
         "the force only rises or falls, along a straight line: a loading ramp before the body slides, "
         "or a sensor that drifts; record longer"};
   }
-  if (count == 0) return Classification{MotionClass::SteadySliding, "the force has no drops larger than its noise"};
   const std::size_t larger = falls_beyond_noise(segmentation);
   if (is_faint(segmentation) && larger < thresholds::kFewestSlips && no_repetition(spectral)) {
     return Classification{MotionClass::SteadySliding,

@@ -16,43 +16,47 @@ namespace slipfit {
 
 namespace {
 
-/// Returns the median of slopes over the speed with its error.
-Estimate median_slope(const std::vector<double>& slopes_N_per_s, double speed_m_per_s) {
+/// Holds the median and the standard deviation that the median deviation from it gives.
+struct RobustSpread {
+  double middle = 0.0, sd = 0.0, count = 0.0;
+};
+
+RobustSpread robust_spread(const std::vector<double>& values) {
+  const double middle = median(values);
   std::vector<double> off;
-  off.reserve(slopes_N_per_s.size());
-  const double middle = median(slopes_N_per_s);
-  for (const double slope : slopes_N_per_s) off.push_back(std::abs(slope - middle));
-  constexpr double kMedianToSe = signal::kMedianToSigma * 1.2533;  // error of a median over that of a mean
-  const auto count = static_cast<double>(slopes_N_per_s.size());
-  const double error = kMedianToSe * median(std::move(off)) / std::sqrt(count);
-  return symmetric(middle / speed_m_per_s, error / speed_m_per_s, count - 1.0);
+  off.reserve(values.size());
+  for (const double value : values) off.push_back(std::abs(value - middle));
+  return {middle, signal::kMedianToSigma * median(std::move(off)), static_cast<double>(values.size())};
+}
+
+/// Returns the median slope over the speed with its error.
+Estimate stiffness_of(const RobustSpread& slopes_N_per_s, double speed_m_per_s) {
+  constexpr double kMedianToMean = 1.2533;  // error of a median over that of a mean
+  const double error = kMedianToMean * slopes_N_per_s.sd / std::sqrt(slopes_N_per_s.count);
+  return symmetric(slopes_N_per_s.middle / speed_m_per_s, error / speed_m_per_s, slopes_N_per_s.count - 1.0);
 }
 
 /// Returns the sticks, none of them short, whose slope clearly differs from that of most: the steeper or the flatter
 /// ones, whichever are more. None where they are so few that an impulse may have made them.
-OtherSticks other_sticks(const std::vector<Rise>& rises, double speed_m_per_s) {
-  std::vector<double> slopes, off, durations_s;
-  for (const Rise& rise : rises) {
-    slopes.push_back(rise.middle_N_per_s);
-    durations_s.push_back(rise.duration_s);
-  }
-  const double middle = median(slopes);
-  for (const double slope : slopes) off.push_back(std::abs(slope - middle));
-  const double scatter = signal::kMedianToSigma * median(std::move(off));
+OtherSticks other_sticks(const std::vector<Rise>& rises, const RobustSpread& slopes_N_per_s, double speed_m_per_s) {
+  std::vector<double> durations_s;
+  durations_s.reserve(rises.size());
+  for (const Rise& rise : rises) durations_s.push_back(rise.duration_s);
   const double usual_s = median(std::move(durations_s));
+  const double negligible = thresholds::kNegligible * std::abs(slopes_N_per_s.middle);
   std::vector<double> lower, higher;
   for (const Rise& rise : rises) {
-    const double difference = rise.middle_N_per_s - middle;
-    const double error = scatter * std::max(1.0, std::pow(usual_s / rise.duration_s, 1.5));  // of a line through noise
-    const bool differs = std::abs(difference) > thresholds::kSureSigmas * error &&
-                         std::abs(difference) > thresholds::kNegligible * std::abs(middle);
-    if (differs && rise.duration_s > 0.5 * usual_s) (difference < 0.0 ? lower : higher).push_back(rise.middle_N_per_s);
+    if (!(rise.duration_s > 0.5 * usual_s)) continue;
+    const double difference = rise.middle_N_per_s - slopes_N_per_s.middle;
+    // The error of a line through noise grows as its length to the power -3/2.
+    const double error = slopes_N_per_s.sd * std::max(1.0, std::pow(usual_s / rise.duration_s, 1.5));
+    const bool differs = std::abs(difference) > std::max(thresholds::kSureSigmas * error, negligible);
+    if (differs) (difference < 0.0 ? lower : higher).push_back(rise.middle_N_per_s);
   }
   const std::vector<double>& more = lower.size() > higher.size() ? lower : higher;
   constexpr double kFew = 0.05;
-  const double least = std::max(3.0, kFew * static_cast<double>(rises.size()));
-  if (static_cast<double>(more.size()) < least) return {};
-  return {more.size(), rises.size(), median_slope(more, speed_m_per_s)};
+  if (static_cast<double>(more.size()) < std::max(3.0, kFew * slopes_N_per_s.count)) return {};
+  return {more.size(), stiffness_of(robust_spread(more), speed_m_per_s)};
 }
 
 /// Adds the slopes of the sticks over the speed, in the middle three fifths of the time between slips.
@@ -69,9 +73,10 @@ void add_stick_stiffness(const Recording& recording, const Segmentation& segment
   std::vector<double> slopes;
   slopes.reserve(rises.size());
   for (const Rise& rise : rises) slopes.push_back(rise.middle_N_per_s);
+  const RobustSpread spread = robust_spread(slopes);
   const double speed_m_per_s = recording.conditions().speed_m_per_s;
-  result.stick_stiffness = median_slope(slopes, speed_m_per_s);
-  result.other_sticks = other_sticks(rises, speed_m_per_s);
+  result.stick_stiffness = stiffness_of(spread, speed_m_per_s);
+  result.other_sticks = other_sticks(rises, spread, speed_m_per_s);
 }
 
 /// Returns the statistics with the slip and stick times of the fitted cycles.

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <utility>
 
+#include "core/counted.hpp"
 #include "core/sample_range.hpp"
 #include "core/statistics.hpp"
 #include "core/thresholds.hpp"
@@ -330,8 +331,7 @@ std::optional<std::string> broken_rhythm(const Recording& recording, const Segme
   return fmt::format(
       "{} between slips {} from the period of the others: the stage paused, samples are missing, or slips are cut "
       "short; {} left out",
-      broken == 1 ? "one interval" : fmt::format("{} intervals", broken), broken == 1 ? "differs" : "differ",
-      broken == 1 ? "it was" : "they were");
+      counted(broken, "interval"), broken == 1 ? "differs" : "differ", broken == 1 ? "it was" : "they were");
 }
 
 bool pace_changes(const Segmentation& segmentation) {

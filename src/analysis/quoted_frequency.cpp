@@ -252,15 +252,6 @@ FrequencyReport of_trace(const Recording& recording, const Signals& signals, con
   return report;
 }
 
-/// Returns an estimate with an interval that includes the value of another one.
-Estimate including(Estimate estimate, const Estimate& other) {
-  if (!other.value || !estimate.ci95) return estimate;
-  estimate.ci95 = Interval{std::min(estimate.ci95->low, *other.value), std::max(estimate.ci95->high, *other.value)};
-  const double longer = std::max(*estimate.value - estimate.ci95->low, estimate.ci95->high - *estimate.value);
-  estimate.standard_error = std::max(estimate.standard_error.value_or(0.0), longer / kNormalQuantile);
-  return estimate;
-}
-
 }  // namespace
 
 FrequencyReport quote_frequency(const Recording& recording, const Signals& signals,
@@ -288,7 +279,7 @@ FrequencyReport quote_frequency(const Recording& recording, const Signals& signa
     } else {
       report = fitted ? *fitted : of_trace(recording, signals, classification);
       constexpr double kMost = 0.8;  // cycles that the fit leaves out may have another period
-      if (fitted && used_share(*fit) < kMost) report.quoted = including(report.quoted, counted);
+      if (fitted && counted.value && used_share(*fit) < kMost) report.quoted = including(report.quoted, *counted.value);
     }
   }
   report.spectral = signals.spectral;

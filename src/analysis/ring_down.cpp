@@ -255,7 +255,7 @@ std::optional<RunUp> first_large_rise(const Trace& trace, double drop) {
   const double swing = std::max(drop > 0.0 ? 0.25 * drop : 0.1 * range, 8.0 * trace.noise);
   const double least = std::max(thresholds::kRunUp * drop, thresholds::kNoiseDrop * trace.noise);
   constexpr double kShareOfLevel = 0.75;  // static friction is hardly below kinetic friction
-  const double level = median(trace.force);
+  std::optional<double> level;            // of sliding, once a rise asks for it
   signal::TurningPoints turns(swing);
   std::size_t lowest = 0;  // of those before `looked`
   std::size_t looked = 0;
@@ -266,8 +266,9 @@ std::optional<RunUp> first_large_rise(const Trace& trace, double drop) {
     const std::size_t peak = turns.falls()[seen++].peak;
     for (; looked < peak; ++looked) lowest = trace.force[looked] < trace.force[lowest] ? looked : lowest;
     const double rise = trace.force[peak] - trace.force[lowest];
-    const bool reaches_level = rise > kShareOfLevel * (level - trace.force[lowest]);
-    if (reaches_level && rise > std::max(least, drop > 0.0 ? 0.0 : 0.5 * range)) return RunUp{lowest, peak, rise};
+    if (!(rise > std::max(least, drop > 0.0 ? 0.0 : 0.5 * range))) continue;
+    if (!level) level = median(trace.force);
+    if (rise > kShareOfLevel * (*level - trace.force[lowest])) return RunUp{lowest, peak, rise};
   }
   return std::nullopt;
 }

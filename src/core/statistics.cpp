@@ -114,6 +114,14 @@ Estimate scaled(Estimate estimate, double factor) {
   return estimate;
 }
 
+Estimate including(Estimate estimate, double value) {
+  const Interval ci95 = estimate.ci95.value_or(Interval{*estimate.value, *estimate.value});
+  estimate.ci95 = Interval{std::min(ci95.low, value), std::max(ci95.high, value)};
+  const double reach = std::max(estimate.ci95->high - *estimate.value, *estimate.value - estimate.ci95->low);
+  estimate.standard_error = std::max(estimate.standard_error.value_or(0.0), reach / kNormalQuantile);
+  return estimate;
+}
+
 double reach_towards(const Estimate& estimate, double other) {
   return other > *estimate.value ? estimate.ci95->high - *estimate.value : *estimate.value - estimate.ci95->low;
 }

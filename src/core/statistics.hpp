@@ -151,6 +151,10 @@ Estimate symmetric(double value, double se, double degrees_of_freedom = std::num
 /// Returns the estimate in another unit: value, standard error and interval times a factor above 0.
 Estimate scaled(Estimate estimate, double factor);
 
+/// Returns an estimate that has a value, with an interval that includes another value and a standard error that goes
+/// with it.
+Estimate including(Estimate estimate, double value);
+
 /// Returns the length of the 95 % interval, which is known, from the value towards another value.
 double reach_towards(const Estimate& estimate, double other);
 

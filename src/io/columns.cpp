@@ -7,6 +7,7 @@
 #include <iterator>
 #include <utility>
 
+#include "core/counted.hpp"
 #include "core/thrown_error.hpp"
 #include "core/unit_text.hpp"
 #include "core/word_list.hpp"

@@ -16,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/counted.hpp"
 #include "core/thrown_error.hpp"
 #include "core/word_list.hpp"
 #include "io/cells.hpp"
@@ -91,6 +92,16 @@ ReadOptions& owner_of(auto ReadOptions::* /*member*/, ManifestEntry& entry) {
 template <auto member>
 void set_number_of(ManifestEntry& entry, double number) {
   owner_of(member, entry).*member = number;
+}
+
+/// The speed is read before. An error of half of it or more is a mistaken unit.
+void set_speed_error(ManifestEntry& entry, double error_m_per_s) {
+  const double speed_m_per_s = entry.conditions.speed_m_per_s;
+  if (speed_m_per_s > 0.0 && error_m_per_s > 0.5 * speed_m_per_s) {
+    throw ThrownError({"out_of_range", fmt::format("{:.4g} m/s is more than half of the speed, {:.4g} m/s",
+                                                   error_m_per_s, speed_m_per_s)});
+  }
+  entry.conditions.speed_standard_error_m_per_s = error_m_per_s;
 }
 
 template <auto member>
@@ -286,8 +297,7 @@ constexpr std::array kFields = std::to_array<ManifestField>({
          "Driving speed: 0.01 (m/s), 10mm/s, '600 mm/min'; 10mm/s,20mm/s of two recordings; 60rpm with --radius"},
         "_m_per_s", Dimension::Speed, Bound::AboveZero, set_number_of<&Conditions::speed_m_per_s>, Need::Column),
     number_field({"speed_se", "--speed-uncertainty", "Standard error of the speed: 0.1mm/s, or a percentage: 1%"},
-                 "_m_per_s", Dimension::Speed, Bound::NotNegative,
-                 set_number_of<&Conditions::speed_standard_error_m_per_s>),
+                 "_m_per_s", Dimension::Speed, Bound::NotNegative, set_speed_error),
     number_field({"normal_force", "--normal-force", "Normal force: 5 (N), '41 gf'"}, "_N", Dimension::Force,
                  Bound::AboveZero, set_number_of<&Conditions::normal_force_N>),
     number_field({"zero_force", "--zero", "Sensor reading at no force (N); absolute forces need it"}, "_N",
@@ -517,11 +527,6 @@ void set_number(ManifestEntry& entry, const ManifestColumn& column, const std::s
         {"out_of_range", fmt::format("'{}' is {} zero", printable_utf8(cell), is_too_low ? "not above" : "below")});
   }
   if (!std::isfinite(number)) throw refusal("bad_number", cell, "a finite number");
-  const double speed_m_per_s = entry.conditions.speed_m_per_s;
-  if (column.field->said.column == "speed_se" && speed_m_per_s > 0.0 && number > 0.5 * speed_m_per_s) {
-    throw ThrownError({"out_of_range", fmt::format("'{}' is more than half of the speed, {:.4g} m/s",
-                                                   printable_utf8(cell), speed_m_per_s)});
-  }
   column.field->set_number(entry, number);
   if (column.field->said.column == "speed") {
     entry.conditions.speed_unit = column.scale ? column.unit : unit_in(cell);

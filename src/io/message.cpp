@@ -50,8 +50,8 @@ std::string name_of_file(const std::filesystem::path& file) {
   return file == "-" ? "standard input" : slipfit::printable(file.string());
 }
 
-std::string counted(std::size_t count, std::string_view noun) {
-  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
+std::string table_was_read(std::string_view table) {
+  return "Table '" + printable_utf8(table) + "' of the file was read; --variable chooses another.";
 }
 
 ThrownError duplicate_id(const std::string& file, const ManifestEntry& entry, std::size_t first_line) {

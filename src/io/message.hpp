@@ -31,9 +31,6 @@ std::optional<std::size_t> place_in_list(std::string_view text, std::size_t coun
 /// Returns the name of a file as messages and reports show it; "-" is standard input.
 std::string name_of_file(const std::filesystem::path& file);
 
-/// "1 row", "12 rows".
-std::string counted(std::size_t count, std::string_view noun);
-
 /// The texts of the first `most` of `count` items, parted by commas, then `more` if there are more.
 template <class TextOf>
 std::string listed(std::size_t count, std::size_t most, const TextOf& text_of, std::string_view more = ", ...") {
@@ -41,6 +38,9 @@ std::string listed(std::size_t count, std::size_t most, const TextOf& text_of, s
   for (std::size_t i = 0; i < std::min(count, most); ++i) list.append(i == 0 ? "" : ", ").append(text_of(i));
   return count > most ? list.append(more) : list;
 }
+
+/// Says which of the tables in a file was read.
+std::string table_was_read(std::string_view table);
 
 /// Returns an error about a manifest; messages show `file`.
 ThrownError duplicate_id(const std::string& file, const ManifestEntry& entry, std::size_t first_line);

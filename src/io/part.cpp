@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/clock_step.hpp"
+#include "core/counted.hpp"
 #include "core/thrown_error.hpp"
 #include "io/columns.hpp"
 #include "io/message.hpp"

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "core/clock_step.hpp"
+#include "core/counted.hpp"
 #include "core/statistics.hpp"
 #include "core/thrown_error.hpp"
 #include "io/message.hpp"

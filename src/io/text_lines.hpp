@@ -42,8 +42,8 @@ class TextLines {
  public:
   explicit TextLines(std::unique_ptr<TextSource> source);
 
-  /// Returns the next line, valid until the next call, with a NUL in place of its LF or CRLF; null after the last one.
-  /// Throws what the source throws, and LineTooLong beyond 16 MB.
+  /// Returns the next line, in which a NUL replaces the LF or CRLF, or a null pointer after the last line. The line is
+  /// valid until the next call. Throws what the source throws, and LineTooLong beyond 16 MB.
   const char* next();
   /// Returns the number of the latest line, from 1.
   [[nodiscard]] unsigned number() const { return number_; }

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "analysis/estimate.hpp"
 #include "analysis/sweep_checks.hpp"
 #include "checks.hpp"
 #include "slipfit/pipeline.hpp"
@@ -90,6 +91,17 @@ TEST_CASE("levels that repeat over one path at all speeds are texture, after one
   REQUIRE(clock.size() == 1);
   CHECK(clock.front().message.find("5 s at every speed") != std::string::npos);
   CHECK(check_level_repeats(entries, {repeating_over(5e-3), repeating_over(9e-3)}).empty());
+}
+
+TEST_CASE("the share of cycles that a fit uses is that of those it was offered, not of all") {
+  FitResult fit;
+  fit.cycles.resize(1000);
+  for (std::size_t i = 0; i < fit.cycles.size(); ++i) {
+    fit.cycles[i].selected = i < 100;  // more than a fit needs
+    fit.cycles[i].used = i < 90;
+  }
+  CHECK(used_share(fit) == Approx(0.9));
+  CHECK_FALSE(leaves_out_most(fit));
 }
 
 }  // namespace slipfit

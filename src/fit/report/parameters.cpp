@@ -51,7 +51,8 @@ constexpr const char* kSameWithinSlip =
     "friction (for w_n and m) and a load (for zeta and F_s - F_k, too) that stay the same within a slip";
 
 /// States the source of w_n and mass that are not read from the slips.
-constexpr const char* kStatedMass = "from the stated mass, because sensor averaging hides w_n";
+constexpr const char* kStatedMass =
+    "computed from the stated mass, because the sensor averages over the slips and so conceals w_n";
 
 /// States why the mass is not identified where the force rises after a slip.
 constexpr const char* kRiseOfTimeOrDistance =

@@ -274,8 +274,7 @@ Container arrays_in(const std::string& kind, TextStream packed, const std::strin
       read = std::move(one.first);
       text.bytes = std::move(one.bytes);
     }
-    text.assumed.push_back("Of the tables in the file '" + printable_utf8(read) +
-                           "' was read; --variable chooses another.");
+    text.assumed.push_back(table_was_read(read));
     return text;
   };
   return {open, [=] {

@@ -26,8 +26,7 @@ Container arrays_in(OpenArrays open_arrays, TextStream packed, const std::string
     ReadTable read = with_name(name, [&] { return file.read(variable); });
     TextStream text;
     text.bytes = text_of(std::move(read.table));
-    text.assumed.push_back("Of the tables in the file '" + printable_utf8(read.name) +
-                           "' was read; --variable chooses another.");
+    text.assumed.push_back(table_was_read(read.name));
     return text;
   };
   return {open, [bytes, file, name] { return with_name(name, file.tables); }};

@@ -8,7 +8,7 @@
 #include <span>
 
 #include "chart/chart.hpp"
-#include "io/message.hpp"
+#include "core/counted.hpp"
 #include "report/batch_html.hpp"
 #include "report/document/json_node.hpp"
 #include "report/html/assets.hpp"
@@ -60,14 +60,14 @@ StatusCounts statuses_of(const std::vector<BatchPageRow>& rows) {
 
 std::string summary_of(const BatchPage& page, const StatusCounts& counts) {
   const auto groups = static_cast<std::size_t>(std::ranges::count_if(page.rows, is_group));
-  std::string sentence = reading::counted(page.rows.size() - groups, "recording");
+  std::string sentence = counted(page.rows.size() - groups, "recording");
   const char* separator = ": ";
   for (const auto& [status, count] : counts) {
     if (count == 0) continue;
     sentence += fmt::format("{}{} {}", separator, count, plain_words(status));
     separator = ", ";
   }
-  if (groups > 0) sentence += "; " + reading::counted(groups, "group");
+  if (groups > 0) sentence += "; " + counted(groups, "group");
   if (!page.failures.empty()) sentence += fmt::format("; {} failed", page.failures.size());
   return text(sentence + ".");
 }
