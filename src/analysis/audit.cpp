@@ -220,7 +220,9 @@ bool contradict(const Estimate& first, const Estimate& second) {
 
 /// Lets the interval reach the same multiple of the value; nothing where there is none.
 void include(Estimate& estimate, double factor) {
-  if (estimate.value) estimate = including(std::move(estimate), factor * *estimate.value);
+  if (!estimate.value) return;
+  const double value = factor * *estimate.value;
+  estimate = including(std::move(estimate), value);
 }
 
 /// Never a higher status.
