@@ -18,7 +18,6 @@
 #include "progress_line.hpp"
 #include "quantities.hpp"
 #include "recording_options.hpp"
-#include "slipfit/io/file_info.hpp"
 #include "stop_signals.hpp"
 
 namespace {
@@ -61,7 +60,8 @@ void add_options(CLI::App& command, BatchArguments& arguments) {
   command.add_option("--shard", arguments.shard, "I/N: fit the I-th of N parts of the manifest, I from 1");
   command.add_flag("--joint-groups", arguments.joint_groups, "Also fit the recordings of each group together");
   command.add_option("--tier", arguments.tier, "auto|sawtooth|undamped|damped|weakening: model")->capture_default_str();
-  command.add_option("--fix", arguments.fixed, "NAME=VALUE: fix a parameter at a value (SI); may be repeated")
+  command
+      .add_option("--fix", arguments.fixed, "NAME=VALUE: fix a parameter at a value, such as k=5kN/m; may be repeated")
       ->allow_extra_args(false);
   command.add_option(
       "--report", arguments.report,
@@ -199,17 +199,6 @@ std::string drafted_manifest(const BatchArguments& arguments) {
   write_file({"--out", file}, text);
   messages.notify(fmt::format("drafted the manifest '{}' of {} recordings", file, draft.entries.size()));
   return file;
-}
-
-/// Returns true if the paths name a manifest: any file that is one, or a single file that is not a recording either,
-/// whose errors are then those of a manifest.
-bool names_manifest(const std::vector<std::string>& paths) {
-  std::error_code ignored;
-  const std::string& first = paths.front();
-  if (paths.size() > 1 || fs::is_directory(first, ignored)) return false;
-  if (!fs::is_regular_file(first, ignored) || is_manifest(first)) return true;  // a pipe is not waited for
-  const auto recording = slipfit::inspect_recording(first);
-  return !recording || recording.value().refusal;
 }
 
 /// A manifest as it is; that of files and folders is drafted first.

@@ -9,6 +9,7 @@
 
 #include "failure.hpp"
 #include "output.hpp"
+#include "slipfit/io/file_info.hpp"
 #include "slipfit/io/manifest.hpp"
 
 namespace {
@@ -41,6 +42,15 @@ bool differ(double stated, double drafted) {
 
 bool is_manifest(const std::string& file) {
   return slipfit::ManifestReader::open(file).ok();
+}
+
+bool names_manifest(const std::vector<std::string>& paths, const slipfit::ReadOptions& options) {
+  std::error_code ignored;
+  const std::string& first = paths.front();
+  if (paths.size() > 1 || fs::is_directory(first, ignored)) return false;
+  if (!fs::is_regular_file(first, ignored) || is_manifest(first)) return true;  // a pipe is not waited for
+  const auto recording = slipfit::inspect_recording(first, options);
+  return !recording || recording.value().refusal;
 }
 
 std::vector<slipfit::ManifestEntry> manifest_entries(const std::string& manifest,

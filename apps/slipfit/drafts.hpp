@@ -12,6 +12,10 @@
 /// Returns true if the header line of a file is that of a manifest.
 bool is_manifest(const std::string& file);
 
+/// Returns true if the paths name a manifest: a single file that is one, or that is no recording either when it is read
+/// with these options: its errors are then those of a manifest.
+bool names_manifest(const std::vector<std::string>& paths, const slipfit::ReadOptions& options = {});
+
 /// Returns the recordings of a manifest, of its group, or only these ids. Throws Failure(WrongUsage).
 std::vector<slipfit::ManifestEntry> manifest_entries(const std::string& manifest,
                                                      const std::optional<std::string>& group,

@@ -245,13 +245,12 @@ void run_manifest(const FitArguments& arguments, const slipfit::FitOptions& opti
 }
 
 /// Several recordings that are fitted together, each as the options, its file and its name say.
-void run_files_together(const FitArguments& arguments, const slipfit::FitOptions& options) {
-  std::vector<std::string> files = arguments.recording.files;
-  files.insert(files.begin(), *arguments.sweep);
+void run_files_together(const FitArguments& arguments, const slipfit::FitOptions& options,
+                        const std::vector<std::string>& files) {
   if (const std::string option = first_given(arguments, {"--cycles", "--curve", "--plots", "--timing", "--mass",
                                                          "--sensor-bandwidth", "--sensor-resonance"});
       !option.empty()) {
-    refuse("{} applies to one recording, but several are fitted together", option);
+    refuse("{} applies to one recording, but several are fitted together: leave it out, or leave out --joint", option);
   }
   const auto draft = draft_of(files, read_options_from(arguments.recording), arguments.document);
   const std::vector<ManifestEntry> entries = entries_of(draft, arguments.recording, arguments.document);
@@ -270,9 +269,12 @@ void run(const FitArguments& arguments) {
   slipfit::FitOptions options = fit_options_from(arguments.tier, arguments.fixed,
                                                  is_together ? slipfit::FitKind::Sweep : slipfit::FitKind::Single);
   options.curve = !first_given(arguments, {"--curve", "--report", "--plots"}).empty();
-  if (arguments.sweep) {  // a manifest, or the first of several recordings
-    return files.empty() || is_manifest(*arguments.sweep) ? run_manifest(arguments, options)
-                                                          : run_files_together(arguments, options);
+  if (arguments.sweep) {  // a manifest, or the first of the recordings
+    std::vector<std::string> together = files;
+    together.insert(together.begin(), *arguments.sweep);
+    return is_manifest(*arguments.sweep) || names_manifest(together, read_options_from(arguments.recording))
+               ? run_manifest(arguments, options)
+               : run_files_together(arguments, options, together);
   }
   if (arguments.group || !arguments.only.empty()) {
     refuse("--group and --only select recordings of a manifest: give it with --joint");
@@ -302,14 +304,17 @@ void add_fit_options(CLI::App& command, FitArguments& arguments) {
       .add_option("--tier", arguments.tier,
                   "auto|sawtooth|undamped|damped|weakening|velocity: model (velocity: with --joint)")
       ->capture_default_str();
-  command.add_option("--fix", arguments.fixed, "NAME=VALUE: fix k, w_n or zeta at a value (SI); may be repeated")
+  command
+      .add_option("--fix", arguments.fixed,
+                  "NAME=VALUE: fix k, w_n or zeta at a value, such as k=5kN/m; may be repeated")
       ->allow_extra_args(false);
   add_output_option(command, arguments.document, "--curve", "Write time, force, fitted force and residual (CSV)");
   command.add_option("--surface", arguments.surface.file,
                      "Profile or image of the worn track; its pattern is compared with the slips");
   add_profile_options(command, arguments.surface);
   command
-      .add_option("--joint", arguments.sweep, "Manifest (CSV) or several recordings, fitted with one set of parameters")
+      .add_option("--joint", arguments.sweep,
+                  "Manifest (CSV), recordings or a folder, fitted with one set of parameters")
       ->check([](const std::string& value) {
         return value.starts_with("--") ? "must be followed by a manifest or recordings; other options come after these"
                                        : "";

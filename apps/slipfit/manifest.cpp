@@ -29,6 +29,7 @@ void run(const ManifestArguments& arguments) {
   check_outputs(document.outputs, "");
   const slipfit::ManifestDraft draft = slipfit::writable(slipfit::draft_manifest(arguments.paths));
   check_found(draft);
+  for (const slipfit::DraftEntry& entry : draft.entries) check_outputs(document.outputs, entry.file.string());
   for (const slipfit::Error& error : draft.skipped) document.notify("left out: " + error.message);
   const auto without_speed =
       std::count_if(draft.entries.begin(), draft.entries.end(), [](const auto& entry) { return !entry.speed_m_per_s; });

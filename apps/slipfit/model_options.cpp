@@ -30,8 +30,9 @@ std::optional<slipfit::VelocityFriction> velocity_friction(const ModelArguments&
 
 void add_model_options(CLI::App& command, ModelArguments& arguments) {
   using enum Limits;
-  add_quantity(command, "--stiffness", arguments.stiffness_N_per_m, "N/m", AboveZero, "Tangential stiffness (N/m)");
-  add_quantity(command, "--mass", arguments.mass_kg, "kg", AboveZero, "Oscillating mass (kg)");
+  add_quantity(command, "--stiffness", arguments.stiffness_N_per_m, Dimension::Stiffness, AboveZero,
+               "Tangential stiffness (N/m)");
+  add_quantity(command, "--mass", arguments.mass_kg, Dimension::Mass, AboveZero, "Oscillating mass (kg)");
   add_quantity(command, "--natural-frequency", arguments.natural_frequency_rad_per_s, Dimension::AngularSpeed,
                AboveZero, "sqrt(k/m) (rad/s), instead of --mass");
   add_quantity(command, "--damping-ratio", arguments.damping_ratio, Dimension::Dimensionless, None,
@@ -43,7 +44,7 @@ void add_model_options(CLI::App& command, ModelArguments& arguments) {
   add_quantity(command, "--f0", arguments.f0_N, Dimension::Force, None,
                "Friction that depends on the sliding speed v: f0 + f1 exp(alpha v), instead of --kinetic-friction (N)");
   add_quantity(command, "--f1", arguments.f1_N, Dimension::Force, None, "See --f0 (N); f0 + f1 at most F_s");
-  add_quantity(command, "--alpha", arguments.alpha_s_per_m, "s/m", None,
+  add_quantity(command, "--alpha", arguments.alpha_s_per_m, Dimension::Slowness, None,
                "See --f0 (s/m); if negative, friction decreases with speed for f1 > 0");
 }
 

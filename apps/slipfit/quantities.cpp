@@ -4,14 +4,8 @@
 
 #include "slipfit/fit/parameter.hpp"
 
-using slipfit::Dimension;
-
-double quantity(const std::string& option, const std::string& text, Kind kind, Limits limits) {
-  const Dimension* const dimension = std::get_if<Dimension>(&kind);
-  const auto parsed = slipfit::parse_quantity(text, dimension != nullptr ? *dimension : Dimension::Dimensionless);
-  if (dimension == nullptr && (!parsed || !slipfit::unit_in(text).empty())) {
-    refuse("{}: bad number '{}', expected a plain number ({})", option, text, std::get<const char*>(kind));
-  }
+double quantity(const std::string& option, const std::string& text, slipfit::Dimension dimension, Limits limits) {
+  const auto parsed = slipfit::parse_quantity(text, dimension);
   if (!parsed) refuse("{}: {}", option, parsed.error().message);
   const double value = parsed.value();
   if (limits == Limits::AboveZero && !(value > 0.0)) refuse("{}: '{}' is not above zero", option, text);

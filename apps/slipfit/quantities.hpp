@@ -5,7 +5,6 @@
 
 #include <optional>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "failure.hpp"
@@ -17,17 +16,19 @@
 
 enum class Limits { None, AboveZero, NotNegative };
 
-/// A number (SI) or a number with a unit of this dimension; or a plain number, whose unit messages name.
-using Kind = std::variant<slipfit::Dimension, const char*>;
-double quantity(const std::string& option, const std::string& text, Kind kind, Limits limits = Limits::None);
+/// A number (SI) or a number with a unit of this dimension.
+double quantity(const std::string& option, const std::string& text, slipfit::Dimension dimension,
+                Limits limits = Limits::None);
 
 /// An option of a `quantity`; the target is a double, or a std::optional of one.
 template <class Target>
-CLI::Option* add_quantity(CLI::App& command, const std::string& option, Target& target, Kind kind, Limits limits,
-                          const std::string& help) {
+CLI::Option* add_quantity(CLI::App& command, const std::string& option, Target& target, slipfit::Dimension dimension,
+                          Limits limits, const std::string& help) {
   return command.add_option_function<std::string>(
       option,
-      [&target, option, kind, limits](const std::string& text) { target = quantity(option, text, kind, limits); },
+      [&target, option, dimension, limits](const std::string& text) {
+        target = quantity(option, text, dimension, limits);
+      },
       help);
 }
 

@@ -78,7 +78,10 @@ slipfit::ManifestEntry entry_at(const RecordingArguments& arguments, const std::
 }
 
 slipfit::ManifestEntry entry_from(const RecordingArguments& arguments) {
-  if (arguments.speeds.size() > 1) refuse("--speed: one recording has one speed, give it once");
+  if (arguments.speeds.size() > 1)
+    refuse(
+        "--speed: one recording has one speed, give it once; steps of a file get their own in a manifest with the "
+        "columns id,file,speed_m_per_s,step");
   return entry_at(arguments, arguments.speeds.empty() ? std::nullopt : std::optional(arguments.speeds.front()));
 }
 

@@ -43,7 +43,7 @@ void add_options(CLI::App& command, SimulateArguments& arguments) {
       ->default_str("0");
   add_quantity(command, "--offset", options.offset_N, Dimension::Force, None, "Offset added to the force (N)")
       ->default_str("0");
-  add_quantity(command, "--drift", options.drift_N_per_s, "N/s", None, "Drift added to the force (N/s)")
+  add_quantity(command, "--drift", options.drift_N_per_s, Dimension::ForceRate, None, "Drift added to the force (N/s)")
       ->default_str("0");
   add_quantity(command, "--hum", options.hum_N, Dimension::Force, NotNegative, "Amplitude of mains hum (N)")
       ->default_str("0");

@@ -3,7 +3,7 @@
 #include "commands.hpp"
 #include "failure.hpp"
 #include "output.hpp"
-#include "quantities.hpp"
+#include "slipfit/core/units.hpp"
 #include "slipfit/report/surface.hpp"
 #include "surface_options.hpp"
 
@@ -28,8 +28,12 @@ void run_surface(const SurfaceCommand& arguments) {
 /// "x", "y", or degrees from the x axis.
 double direction(const std::string& text) {
   if (text == "x") return 0.0;
-  const double degrees = text == "y" ? 90.0 : quantity("--along", text, "degrees from the x axis (or x, y)");
-  return degrees * std::numbers::pi / 180.0;
+  if (text == "y") return std::numbers::pi / 2.0;
+  const auto degrees = slipfit::parse_quantity(text, slipfit::Dimension::Dimensionless);
+  if (!degrees || !slipfit::unit_in(text).empty()) {
+    refuse("--along: bad direction '{}', expected x, y or a number of degrees from the x axis", text);
+  }
+  return degrees.value() * std::numbers::pi / 180.0;
 }
 
 double length_unit_m(const std::string& text) {

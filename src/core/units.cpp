@@ -25,7 +25,7 @@ struct DimensionInfo {
 
 /// In the order of Dimension. Scales and load cells show masses where a force is meant ("g", "lb"), and turns are
 /// counted as frequencies ("rpm").
-constexpr std::array<DimensionInfo, 9> kDimensions{
+constexpr std::array<DimensionInfo, 12> kDimensions{
     {{"time", "s", "s, ms, min", kSecond},
      {"length", "m", "m, mm, um", kMetre},
      {"speed", "m/s", "m/s, mm/s, mm/min", kSpeed},
@@ -34,7 +34,10 @@ constexpr std::array<DimensionInfo, 9> kDimensions{
      {"mass", "kg", "kg, g, mg", kKilogram},
      {"angular speed", "rad/s", "rad/s, rpm", kRadiansPerSecond, kTurnsPerSecond, kTurn_rad},
      {"pure number", "1", "1, %", kPureNumber},
-     {"torque", "N m", "N m, mN m, in lbf", kJoule, kKilogramMetre, kStandardGravity_m_per_s2}}};
+     {"torque", "N m", "N m, mN m, in lbf", kJoule, kKilogramMetre, kStandardGravity_m_per_s2},
+     {"stiffness", "N/m", "N/m, kN/m, N/mm", kNewtonPerMetre},
+     {"time divided by length", "s/m", "s/m, s/mm", kSecondPerMetre},
+     {"force divided by time", "N/s", "N/s, mN/s", kNewtonPerSecond}}};
 
 const DimensionInfo& info_of(Dimension dimension) {
   return kDimensions.at(static_cast<std::size_t>(dimension));

@@ -2,11 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-#include <system_error>
 #include <utility>
 
-#include "core/number_text.hpp"
+#include "slipfit/core/units.hpp"
 
 namespace slipfit {
 namespace {
@@ -45,14 +43,16 @@ std::optional<double>& place_of(ParameterId id, HeldParameters& held) {
   return id == ParameterId::NaturalFrequency ? held.natural_frequency_rad_per_s : held.damping_ratio;
 }
 
+Dimension dimension_of(ParameterId id) {
+  if (id == ParameterId::Stiffness) return Dimension::Stiffness;
+  return id == ParameterId::NaturalFrequency ? Dimension::AngularSpeed : Dimension::Dimensionless;
+}
+
 Result<double> held_value(ParameterId id, const std::string& text) {
   const std::string_view name = info(id).key;
-  double value = 0.0;
-  const char* const end = text.data() + text.size();
-  const auto [stop, status] = number_from_chars(text.data(), end, value);
-  if (status != std::errc() || stop != end || !std::isfinite(value)) {
-    return Error{"bad_number", fmt::format("--fix {}: bad number '{}', expected a plain number (SI)", name, text)};
-  }
+  const Result<double> parsed = parse_quantity(text, dimension_of(id));
+  if (!parsed) return Error{parsed.error().code, fmt::format("--fix {}={}: {}", name, text, parsed.error().message)};
+  const double value = parsed.value();
   constexpr double kNoLimit = 1e300;
   const bool is_share = id == ParameterId::DampingRatio;
   if (is_share ? value < 0.0 || value >= 1.0 : value <= 0.0 || value >= kNoLimit) {

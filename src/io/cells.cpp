@@ -36,8 +36,8 @@ Parsed parse_point(std::string_view text) {
   return parsed;
 }
 
-/// Characters of "-1.234.567": points between groups of three digits; 0 where there is no such point.
-std::size_t length_of_groups(std::string_view text) {
+/// Characters of "-1.234.567": separators between groups of three digits; 0 where there is no separator.
+std::size_t length_of_groups(std::string_view text, char separator) {
   std::size_t at = !text.empty() && (text[0] == '-' || text[0] == '+') ? 1 : 0;
   const auto digits = [&] {
     std::size_t count = 0;
@@ -48,20 +48,25 @@ std::size_t length_of_groups(std::string_view text) {
   const std::size_t first = digits();
   if (first < 1 || first > 3) return 0;
   const std::size_t begin = at;
-  while (at < text.size() && text[at] == '.') {
+  while (at < text.size() && text[at] == separator) {
     ++at;
     if (digits() != 3) return 0;
   }
   return at > begin ? at : 0;
 }
 
+/// Reads with `parse` what is left without the separators within the first `groups` characters.
+Parsed parse_without(char separator, std::size_t groups, std::string_view text, Parsed (*parse)(std::string_view)) {
+  std::string plain(text.substr(0, groups));
+  const std::size_t separators = std::erase(plain, separator);
+  Parsed parsed = parse(plain.append(text.substr(groups)));
+  if (parsed.length > 0) parsed.length += separators;
+  return parsed;
+}
+
 Parsed parse_comma(std::string_view text) {
-  if (const std::size_t groups = length_of_groups(text); groups > 0 && text.size() <= kLongestNumber) {
-    std::string plain(text.substr(0, groups));
-    const std::size_t points = std::erase(plain, '.');
-    Parsed parsed = parse_comma(plain.append(text.substr(groups)));
-    if (parsed.length > 0) parsed.length += points;
-    return parsed;
+  if (const std::size_t groups = length_of_groups(text, '.'); groups > 0 && text.size() <= kLongestNumber) {
+    return parse_without('.', groups, text, parse_comma);
   }
   std::array<char, kLongestNumber> copy{};
   const std::size_t length = std::min(text.size(), copy.size());
@@ -97,7 +102,11 @@ Parsed parse(std::string_view text, bool decimal_comma) {
     if (parsed.length > place) parsed.length += kMinusBytes - 1;
     return parsed;
   }
-  return decimal_comma ? parse_comma(text) : parse_point(text);
+  if (decimal_comma) return parse_comma(text);
+  // "1,234" alone may have a decimal comma; "1,234.5" has not.
+  const std::size_t groups = length_of_groups(text, ',');
+  const bool has_point = groups > 0 && groups < text.size() && text[groups] == '.';
+  return has_point ? parse_without(',', groups, text, parse_point) : parse_point(text);
 }
 
 bool is_missing(std::string_view text) {

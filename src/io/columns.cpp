@@ -367,7 +367,7 @@ Channel torque_channel(const Request& request, std::size_t column, const std::st
   const auto& radius_m = request.options.radius_m;
   if (!radius_m) {
     throw ThrownError({"no_radius", fmt::format("{}: {} is a torque; give the distance of the contact from the axis "
-                                                "with --radius, for example --radius 12mm",
+                                                "with --radius, in metres (0.012)",
                                                 request.file, described)});
   }
   return Channel{column, N_m / *radius_m, ForceQuantity::Force_N,

@@ -35,6 +35,29 @@ TEST_CASE("fit --joint of several files is the joint fit, with a speed each") {
   REQUIRE(named.exit_code == 0);
   CHECK(json::parse(named.out)["id"] == "pad");
   CHECK(json::parse(named.out)["recordings"][1]["recording"]["speed_m_per_s"].get<double>() == Approx(0.08));
+
+  const std::string folder = example.folder.path("named");
+  std::filesystem::create_directory(folder);
+  for (const std::string& file : {named_slow, named_fast}) {
+    std::filesystem::copy(file, folder + "/" + std::filesystem::path(file).filename().string());
+  }
+  const test::ProgramResult in_folder = run_slipfit({"fit", "--joint", folder, "--json"});
+  REQUIRE(in_folder.exit_code == 0);
+  CHECK(json::parse(in_folder.out)["parameters"] == json::parse(named.out)["parameters"]);
+  const test::ProgramResult alone = run_slipfit({"fit", "--joint", named_slow, "--json"});
+  CHECK(alone.exit_code == 0);  // one recording is no manifest
+  CHECK(json::parse(alone.out)["recordings"].size() == 1);
+}
+
+TEST_CASE("a drafted manifest does not replace one of its recordings") {
+  const test::TemporaryFolder folder;
+  const std::string run = folder.file("a_20mmps.csv", simulated_csv("1"));
+  check_refused({"manifest", folder.path(""), "--out", run}, "is the recording itself");
+  CHECK(test::content_of(run) == simulated_csv("1"));
+  const std::string manifest = folder.path("runs.csv");
+  for (int time = 0; time < 2; ++time) {  // an earlier draft may be replaced
+    CHECK(run_slipfit({"manifest", folder.path(""), "--out", manifest, "--quiet"}).exit_code == 0);
+  }
 }
 
 TEST_CASE("fit, analyze and info of several files treat each on its own") {

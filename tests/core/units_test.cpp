@@ -171,6 +171,10 @@ TEST_CASE("a quantity is a number in SI or a number with a unit") {
   CHECK(parse_quantity("-2.5 mN", Dimension::Force).value() == Approx(-2.5e-3).epsilon(1e-15));
   CHECK(parse_quantity("3/min", Dimension::Frequency).value() == Approx(0.05).epsilon(1e-15));
   CHECK(parse_quantity("30 rpm", Dimension::AngularSpeed).value() == Approx(std::numbers::pi).epsilon(1e-15));
+  CHECK(parse_quantity("5 kN/m", Dimension::Stiffness).value() == Approx(5000.0).epsilon(1e-15));
+  CHECK(parse_quantity("5N/mm", Dimension::Stiffness).value() == Approx(5000.0).epsilon(1e-15));
+  CHECK(parse_quantity("-2 s/mm", Dimension::Slowness).value() == Approx(-2000.0).epsilon(1e-15));
+  CHECK(parse_quantity("60 mN/min", Dimension::ForceRate).value() == Approx(1e-3).epsilon(1e-15));
   CHECK(parse_quantity("12 %", Dimension::Dimensionless).value() == Approx(0.12).epsilon(1e-15));
 }
 

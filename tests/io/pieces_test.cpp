@@ -125,6 +125,14 @@ TEST_CASE("points between thousands belong to a number where the comma is the de
   CHECK(pointed.force()[0] == 2.002);
 }
 
+TEST_CASE("commas between thousands belong to a number that has a decimal point") {
+  const auto recording =
+      read_ok("time [s],force [mN]\n0.5,998.5\n1.0,\"1,000.5\"\n1.5,\"-1,234,567.25\"\n2.0,\"12,345.0\"\n");
+  CHECK(copy(recording.force()) == std::vector<double>{0.9985, 1.0005, -1234.56725, 12.345});
+  const auto decimal = read_ok("time [s];force [N]\n1,001;2,002\n1,002;3,003\n1,003;4,004\n");
+  CHECK(decimal.force()[0] == 2.002);
+}
+
 TEST_CASE("a comma that is both separator and decimal sign is reported as such") {
   CHECK(read_error("time,force\n0,001,0,512\n0,002,0,613\n0,003,0,714\n").code == "comma_twice");
   CHECK(read_error("0,001,0,51\n0,002,0,61\n0,003,0,71\n").code == "comma_twice");

@@ -16,7 +16,10 @@ enum class Dimension {
   Mass,           ///< kg
   AngularSpeed,   ///< rad/s ("rpm" included)
   Dimensionless,  ///< 1 ("%" included)
-  Torque          ///< N m ("in lb" included)
+  Torque,         ///< N m ("in lb" included)
+  Stiffness,      ///< N/m
+  Slowness,       ///< s/m, the rate of change of a logarithm with speed
+  ForceRate       ///< N/s
 };
 
 /// Parses a unit such as "mm/min", "gf", "um/s", "mN", "µs", "%", with SI prefixes, products, quotients and powers, and
