@@ -6,7 +6,7 @@ from scipy.interpolate import CubicSpline
 from scipy.signal import butter, lfilter, lfilter_zi
 
 from families_outside import SHARED
-from scenes import draw_rig, families, np, scene
+from scenes import draw_rig, families, np, scene, simulate
 
 K_AND_MASS = ("stiffness_N_per_m", "mass_kg")
 
@@ -55,6 +55,16 @@ def stribeck_minimum(rng):
     rig.drop += rig.model.stribeck_force
     rig.model.quadratic = rng.uniform(0.1, 0.4) * rig.drop / fastest**2
     return scene(rig, rig.run(), known=SHARED)
+
+
+def _rough(rng, share):
+    """A rough track: F_s scatters between the slips by 3 to 30 % of F_s - F_k, and F_k by `share` of it at the same places."""
+    rig = draw_rig(rng)
+    time_s, speed, static, kinetic = rig.course((rig.count + 1) * rig.period_s)
+    spots = rng.standard_normal(rig.count + 3)[(time_s / rig.period_s).astype(int)]
+    spots *= rig.drop * np.exp(rng.uniform(*np.log((0.03, 0.3))))
+    motion = simulate(rig.model, rig.step, speed, static + spots, kinetic + share * spots, start_force=rig.start_force())
+    return scene(rig, motion)
 
 
 def _fixed_depth(rng):
@@ -113,4 +123,8 @@ FAMILIES = families(
     filter_second=lambda rng: _filtered(rng, 2),  # a Butterworth filter of second order at 3 to 15 times the natural frequency
     filter_third=lambda rng: _filtered(rng, 3),
     filter_fourth=lambda rng: _filtered(rng, 4),
+    rough_5=lambda rng: _rough(rng, 0.05),
+    rough_10=lambda rng: _rough(rng, 0.1),
+    rough_30=lambda rng: _rough(rng, 0.3),
+    rough_80=lambda rng: _rough(rng, 0.8),
 )

@@ -30,10 +30,26 @@ namespace {
 
 /// States why a force level is conditional.
 constexpr const char* kZeroUnknown = "assumes that the sensor reads 0 without force: state its reading with --zero";
-/// States why F_s - F_k and zeta of one speed are conditional.
-constexpr const char* kOneSpeed =
-    "assumes kinetic friction that is the same at every sliding speed and in every slip; one driving speed cannot test "
-    "this: fit a sweep";
+/// Returns zeta where F_k of each slip lies off its mean by a share of what F_s does, and `damping_ratio` is what the
+/// troughs give where it does not: a trough lies below F_k by e (F_s - F_k), e = exp(-pi zeta / sqrt(1 - zeta^2)).
+double damping_where_friction_follows(double damping_ratio, double share) {
+  const double log_ratio = std::numbers::pi * damping_ratio / std::sqrt(1.0 - damping_ratio * damping_ratio);
+  const double ratio = (std::exp(-log_ratio) + share) / (1.0 - share);
+  const double decrement = std::max(0.0, -std::log(ratio)) / std::numbers::pi;
+  return decrement / std::sqrt(1.0 + decrement * decrement);
+}
+
+/// States why F_s - F_k and zeta of one speed are conditional. `damping_ratio`: of slips whose scatter determines it.
+std::string one_speed(bool levels_differ, std::optional<double> damping_ratio) {
+  constexpr double kShare = 0.1;
+  std::string reason = "assumes kinetic friction that is the same at every sliding speed";
+  if (!levels_differ) reason += " and in every slip";
+  if (damping_ratio) {
+    reason += fmt::format(" (if it follows a tenth of the scatter of F_s, zeta may be as low as {:.2g})",
+                          damping_where_friction_follows(*damping_ratio, kShare));
+  }
+  return reason + "; one driving speed cannot test this: fit a sweep";
+}
 /// States why a stiffness that changes along the path is conditional.
 constexpr const char* kConstantSpeed =
     "assumes a constant driving speed: only k V is measured, and a speed that changes by as much looks the same";
@@ -300,8 +316,8 @@ class Reporter {
       caveats_.push_back({About::RiseAlone, ParameterStatus::Conditional, kRiseOfDistance});
     }
     if (is_one_speed || f_.load_response) {
-      caveats_.push_back(
-          {About::FrictionAtSpeeds, ParameterStatus::Conditional, is_one_speed ? kOneSpeed : kLoadFollows});
+      caveats_.push_back({About::FrictionAtSpeeds, ParameterStatus::Conditional,
+                          is_one_speed ? one_speed(f_.levels_differ, damping_by_scatter()) : kLoadFollows});
     }
     if (!f_.frequency_tested) {
       caveats_.push_back(
@@ -311,6 +327,11 @@ class Reporter {
       caveats_.push_back({About::Cycles, ParameterStatus::Weak, fmt::format("only {} cycles", f_.cycles)});
     }
     std::ranges::stable_sort(caveats_, {}, &Caveat::about);
+  }
+
+  /// Returns zeta where slips that scatter determine it, because all have one F_k.
+  [[nodiscard]] std::optional<double> damping_by_scatter() const {
+    return f_.onsets_scatter && !f_.levels_differ && !f_.held[kDamping] ? f_.damping.value : std::nullopt;
   }
 
   /// Returns the status that the interval and the caveats leave to an estimate, and why.

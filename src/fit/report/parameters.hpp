@@ -81,6 +81,8 @@ struct Findings {
   std::size_t cycles = 0;
   double samples_per_slip = 0.0;
   double sample_interval_s = 0.0;
+  bool levels_differ = false;     ///< each slip has its own F_k
+  bool onsets_scatter = false;    ///< F_s of the slips does, which makes their troughs a measure of zeta
   std::vector<Caveat> caveats{};  ///< those about the same that were added later precede
   /// Says how far another law of kinetic friction moves F_k(0+) and F_s - F_k(0+), which lengthens their intervals.
   Coordinates other_law = Coordinates::Zero();
