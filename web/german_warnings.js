@@ -8,6 +8,7 @@ const kGermanWarnings = {
   time_runs_backwards: "Zeilen, deren Zeit vor einer früheren liegt, wurden ausgelassen.",
   repeated_time_stamps: "Einige Zeilen tragen die Zeit der vorigen; sie wurden behalten.",
   speed_differs_from_displacement: "Die Wegspalte bewegt sich mit einer anderen Geschwindigkeit als der angegebenen.",
+  sample_rate_differs: "Die Zeiten der Datei haben eine andere Abtastrate als die angegebene; die Angabe gilt.",
   level_repeats: "Das Kraftniveau wiederholt sich entlang des Weges.",
   level_trend: "Das Kraftniveau steigt oder fällt: Drift des Sensors oder geänderte Reibung (--drift sagt, was davon).",
   values_contradict: "Zwei Angaben zu derselben Größe widersprechen sich; die Bereiche enthalten beide, oder eine von mehreren Aufzeichnungen weicht ab.",

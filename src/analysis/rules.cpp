@@ -151,6 +151,7 @@ constexpr auto kRules = std::to_array<Rule>({
      [](const Facts& f) { return one(implausible_units(f.detected.recording(), f.analysis)); }, kScaledBySpeed},
     {"speed_differs_from_displacement", RuleKind::Warning, nullptr, kScaledBySpeed},
     {"speed_differs", RuleKind::Warning, nullptr, kScaledBySpeed},
+    {"sample_rate_differs", RuleKind::Warning, nullptr, kScaledBySpeed},
     {"normal_force_differs", RuleKind::Warning},
     {"frequency_differs_at_one_speed", RuleKind::Warning},
     {"frequency_does_not_follow_speed", RuleKind::Warning},

@@ -236,6 +236,25 @@ std::optional<Channel> choose_time(const Request& request) {
                                      file, list_columns(layout))});
 }
 
+/// Warns of times that are evenly spaced at another rate than the stated one. A coarse clock is neither.
+Warnings warn_of_rate(const Request& request) {
+  constexpr double kTolerance = 0.05;
+  const std::optional<double>& stated_Hz = request.options.sample_rate_Hz;
+  if (!stated_Hz) return {};
+  for (std::size_t c = 0; c < request.layout.columns.size(); ++c) {
+    const Column& column = request.layout.columns[c];
+    const Result<double> unit = parse_unit(column.name.unit, Dimension::Time);
+    if (column.name.role != Role::Time || !unit || !column.is_regular) continue;
+    const double rate_Hz = 1.0 / (column.median_step * unit.value());
+    if (std::abs(rate_Hz - *stated_Hz) <= kTolerance * *stated_Hz) continue;
+    return {{"sample_rate_differs",
+             fmt::format("--sample-rate states {:.6g} samples per second, but the times in {} are those of {:.6g}; "
+                         "leave out --sample-rate if they are right",
+                         *stated_Hz, describe(request.layout, c), rate_Hz)}};
+  }
+  return {};
+}
+
 /// About a clock that is counted from the sampling rate.
 std::string counted_clock_sentence(const Layout& layout, double sample_rate_Hz) {
   std::string sentence = fmt::format("Time is counted from 0 at {} samples per second (as stated).", sample_rate_Hz);
@@ -539,6 +558,7 @@ Choice choose_columns(const Layout& layout, const ReadOptions& options, double s
   choice.assumed.push_back(choice.force.sentence);
   for (const SideRole& role : kSideRoles) choice.*role.channel = choose_side(role, layout, options, choice, file);
   choice.where = choose_where(layout, options, file);
+  choice.warnings = warn_of_rate(request);
   return choice;
 }
 

@@ -49,6 +49,7 @@ struct Choice {
   std::optional<Channel> step;  ///< numbers of steps
   std::optional<WhereFilter> where;
   std::vector<std::string> assumed;
+  Warnings warnings;
 };
 
 /// Errors: unknown_column, column_not_numeric, no_time_column, ambiguous_time_column, no_force_column,

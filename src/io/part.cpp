@@ -262,6 +262,7 @@ void describe_part(Part& part, const OpenedFile& file) {
   provenance.input_bytes = part.rows.bytes;
   provenance.assumed = sentences_of(part, file);
   Warnings warnings = file.warnings;
+  append(warnings, file.choice.warnings);
   append(warnings, warn_of_rows(part));
   append(warnings, provenance.warnings);
   provenance.warnings = std::move(warnings);

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include "temp_file.hpp"
 
 using namespace io_test;
@@ -111,6 +113,20 @@ TEST_CASE("single backward stamps are left out, counted and warned of") {
   CHECK(warns(recording, "time_runs_backwards"));
   CHECK(std::is_sorted(recording.time_s().begin(), recording.time_s().end()));
   CHECK(*std::max_element(recording.force().begin(), recording.force().end()) == 1.5);
+}
+
+TEST_CASE("times at another rate than the stated one are warned of, coarse and unknown ones are not") {
+  const auto warns_at = [](const std::string& name, int rows_a_stamp, double rate_Hz) {
+    std::string text = name + ",force [N]\n";
+    for (int i = 0; i < 100; ++i) text += fmt::format("{},{}\n", i / rows_a_stamp, i % 7);
+    slipfit::ReadOptions options;
+    options.sample_rate_Hz = rate_Hz;
+    return warns(read_ok(text, options), "sample_rate_differs");
+  };
+  CHECK(warns_at("time [ms]", 1, 500.0));
+  CHECK_FALSE(warns_at("time [ms]", 1, 1001.0));
+  CHECK_FALSE(warns_at("time [ms]", 5, 5000.0));  // five rows a stamp: the rate is the better clock
+  CHECK_FALSE(warns_at("time", 1, 500.0));        // a number of samples
 }
 
 TEST_CASE("repeated stamps are kept, counted and warned of") {
