@@ -29,6 +29,7 @@ constexpr std::size_t kMostJobs = 1024;
 struct BatchArguments {
   std::vector<std::string> paths;
   std::string manifest;          ///< the one that is named, or drafted of the paths
+  std::size_t left_out = 0;      ///< files and tables in the paths that are no recording
   RecordingArguments recording;  ///< of files and folders
   std::string out;
   std::optional<std::size_t> jobs;
@@ -180,12 +181,14 @@ void check_same(const std::string& file, const std::string& text) {
 
 /// Drafts the manifest of the recordings as `slipfit manifest` does, with what the options state, into the folder of
 /// the results; returns its file.
-std::string drafted_manifest(const BatchArguments& arguments) {
+std::string drafted_manifest(BatchArguments& arguments) {
   const DocumentOptions& messages = arguments.messages;
   const std::vector<slipfit::DraftColumn> columns = columns_from(arguments.recording);
   slipfit::ManifestDraft draft = draft_of(arguments.paths, read_options_from(arguments.recording), messages);
+  arguments.left_out = draft.skipped.size();
   draft.skipped.clear();
   draft = slipfit::writable(std::move(draft));
+  arguments.left_out += draft.skipped.size();
   for (const slipfit::Error& error : draft.skipped) messages.notify("left out: " + error.message);
   std::erase_if(draft.entries, [&arguments](const auto& entry) { return lies_in(entry.file, arguments.out); });
   if (draft.entries.empty())
@@ -241,12 +244,19 @@ void run(const BatchArguments& stated) {
     throw Failure(StopSignals::received().value_or(ExitCode::Interrupted),
                   fmt::format("stopped after {} of {} recordings; --resume continues", done, progress.total));
   }
+  const std::string left_out =
+      arguments.left_out > 0
+          ? fmt::format("; {} cannot be read and {} left out, see above",
+                        arguments.left_out == 1 ? "one file" : fmt::format("{} files", arguments.left_out),
+                        arguments.left_out == 1 ? "is" : "are")
+          : std::string();
   if (progress.failed > 0) {
     throw Failure(ExitCode::RecordingsFailed,
-                  fmt::format("{} of {} recordings failed: the reasons are in '{}'", progress.failed, progress.total,
-                              (options.folder / "failures.csv").string()));
+                  fmt::format("{} of {} recordings failed: the reasons are in '{}'{}", progress.failed, progress.total,
+                              (options.folder / "failures.csv").string(), left_out));
   }
-  arguments.messages.notify(fmt::format("wrote {} results to '{}' in {:.3g} s", done, arguments.out, progress.seconds));
+  arguments.messages.notify(
+      fmt::format("wrote {} results to '{}' in {:.3g} s{}", done, arguments.out, progress.seconds, left_out));
 }
 
 }  // namespace
