@@ -310,10 +310,6 @@ inline constexpr double kMostlySliding = 0.8;
 /// slips. [1; convention]
 inline constexpr double kLongestPauseRatio = 2.5;
 
-/// Step from rest to sliding over how much the force moves while the body slides, above which a run without slips is
-/// cut out. [1; convention]
-inline constexpr double kPlateauStep = 3.0;
-
 /// Fewest two-hundredths of a trace that make a plateau. [1; convention]
 inline constexpr std::size_t kFewestPlateauBlocks = 20;
 
@@ -385,10 +381,6 @@ inline constexpr double kUnlikeCycles = 0.5;
 /// Fewest cycles with which a line, or a wave of the level, is sought. [count; derived: exp(-0.25 n) is a percent of
 /// chance there]
 inline constexpr std::size_t kFewestOfLine = 16;
-
-/// Power of a line over that of the strongest in the same residuals, below which it may be an image of it. [1;
-/// calibrated: images are below 0.022 for 60 simulated recordings with hum]
-inline constexpr double kHumImage = 0.1;
 
 /// Mean of the unit vectors of a line's phases at the onsets of the slips, above which it is in step with them.
 /// [1; derived: exp(-0.81 n) by chance with n cycles]
@@ -595,15 +587,6 @@ inline constexpr double kSameScale = 0.6;
 /// Relative difference of two spacings, below which they are the same: at two smoothings, of ridges and a comb, of both
 /// halves of a track, of track and slips. [1; convention]
 inline constexpr double kSameSpacing = 0.15;
-
-/// Ratio of two spacings, above which the finer may be a pattern of its own. [1; convention]
-inline constexpr double kFinerPattern = 2.5;
-
-/// Largest ratio that may be an overtone: edges of the coarser pattern. [1; convention]
-inline constexpr double kHighestOvertone = 12.5;
-
-/// Distance of the ratio from a whole number, below which it is one. [1; convention]
-inline constexpr double kOvertoneApart = 0.15;
 
 /// Height of finer ridges over that of coarser ones that may be every second or third of them, above which the finer
 /// are the pattern. [1; convention]

@@ -226,7 +226,6 @@ SampleRange plateau(std::span<const double> force) {
   const double movement = *high - *low;
   const double lowest = *low - 0.5 * movement;
   const double highest = *high + 0.5 * movement;
-  if (split.high - split.low < thresholds::kPlateauStep * movement) return whole;
   const auto is_loading = [&](std::size_t i) { return blocks.level[i] < lowest || blocks.level[i] > highest; };
   while (run.begin < run.end && is_loading(run.begin)) ++run.begin;
   while (run.begin < run.end && is_loading(run.end - 1)) --run.end;

@@ -359,17 +359,11 @@ class NewLines {
     }
   }
 
-  /// Returns the new lines that are no images of others or of what is left of the known ones.
+  /// Returns the new lines that nothing near exceeds by far.
   [[nodiscard]] std::vector<double> without_images() const {
-    double strongest = 0.0;
-    for (const auto* lines_Hz : {&known_Hz_, &seen_Hz_}) {
-      for (const double f_Hz : *lines_Hz) strongest = std::max(strongest, power_of(f_Hz));
-    }
     std::vector<double> lines_Hz = seen_Hz_;
     std::erase_if(lines_Hz, [&](double f_Hz) {
-      const double power = power_of(f_Hz);
-      const bool is_top = power > 0.5 * spectrum_.largest_near(f_Hz, spectrum_.reach_Hz());
-      return !is_top || !(power > thresholds::kHumImage * strongest);
+      return !(spectrum_.largest_near(f_Hz, width_Hz(f_Hz)) > 0.5 * spectrum_.largest_near(f_Hz, spectrum_.reach_Hz()));
     });
     return lines_Hz;
   }
@@ -399,10 +393,6 @@ class NewLines {
     const auto is_near = [&](double f_Hz) { return std::abs(f_Hz - frequency_Hz) < width_Hz(frequency_Hz); };
     return std::any_of(lines_Hz.begin(), lines_Hz.end(), is_near);
   }
-  [[nodiscard]] double power_of(double frequency_Hz) const {
-    return spectrum_.largest_near(frequency_Hz, width_Hz(frequency_Hz));
-  }
-
   const std::vector<double>& known_Hz_;
   double resolution_Hz_;
   RestSpectrum spectrum_;

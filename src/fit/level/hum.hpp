@@ -22,8 +22,7 @@ struct DriveRipple {
 ///
 /// A line that is not fitted yet has images: at multiples of the slips' frequency from it, because cycles take up part
 /// of it in numbers of their own, and near it where there are gaps between the fitted cycles. They go when the line is
-/// fitted. So only lines are taken that are strong next to all other new ones and what is left of the known ones
-/// (thresholds::kHumImage), and that nothing near exceeds by far.
+/// fitted. So only lines are taken that nothing near exceeds by far.
 ///
 /// `residuals`: one a sample (Residuals::value), handed over because a long recording has no room for a copy.
 std::vector<double> find_hum(const Recording& recording, const BlockFit& fit, std::vector<double> residuals,
