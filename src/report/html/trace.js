@@ -60,11 +60,16 @@ function makeTraceView(data, charts, { onShow = () => {}, onPoint = () => {}, ti
   function ticksOf(low, high, most) {
     const raw = (high - low) / Math.max(1, most);
     const power = 10 ** Math.floor(Math.log10(raw));
-    const step = [1, 2, 5, 10].find((part) => part * power >= raw * (1 - 1e-9)) * power;
-    const digits = Math.min(20, Math.max(0, -Math.floor(Math.log10(step) + 1e-9)));
-    const ticks = [];
-    for (let k = Math.ceil(low / step); k * step <= high && ticks.length < 50; ++k) ticks.push([k * step, (k * step).toFixed(digits)]);
-    return ticks;
+    const parts = [0.5, 1, 2, 5, 10];
+    const coarse = parts.findIndex((part) => part * power >= raw * (1 - 1e-9));
+    const ticksAt = (step) => {
+      const digits = Math.min(20, Math.max(0, -Math.floor(Math.log10(step) + 1e-9)));
+      const ticks = [];
+      for (let k = Math.ceil(low / step); k * step <= high && ticks.length < 50; ++k) ticks.push([k * step, (k * step).toFixed(digits)]);
+      return ticks;
+    };
+    const ticks = ticksAt(parts[coarse] * power);
+    return ticks.length > 1 ? ticks : ticksAt(parts[coarse - 1] * power); // one value is no scale
   }
   /** The lowest and highest sample of each column, so that no peak is lost; the samples themselves where they are few. */
   function envelope(at, first, last, columns) {
