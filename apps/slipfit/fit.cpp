@@ -244,9 +244,16 @@ void run_manifest(const FitArguments& arguments, const slipfit::FitOptions& opti
   run_sweep(arguments, options, arguments.group.value_or(fs::path(*arguments.sweep).stem().string()), entries);
 }
 
+/// --group and --only choose among the rows of a manifest.
+void check_no_selection(const FitArguments& arguments) {
+  if (!arguments.group && arguments.only.empty()) return;
+  refuse("--group and --only select recordings of a manifest: give it with --joint");
+}
+
 /// Several recordings that are fitted together, each as the options, its file and its name say.
 void run_files_together(const FitArguments& arguments, const slipfit::FitOptions& options,
                         const std::vector<std::string>& files) {
+  check_no_selection(arguments);
   if (const std::string option = first_given(arguments, {"--cycles", "--curve", "--plots", "--timing", "--mass",
                                                          "--sensor-bandwidth", "--sensor-resonance"});
       !option.empty()) {
@@ -276,9 +283,7 @@ void run(const FitArguments& arguments) {
                ? run_manifest(arguments, options)
                : run_files_together(arguments, options, together);
   }
-  if (arguments.group || !arguments.only.empty()) {
-    refuse("--group and --only select recordings of a manifest: give it with --joint");
-  }
+  check_no_selection(arguments);
   if (files.empty()) refuse("REC is required: name a recording, or a manifest with --joint");
   if (is_of_pieces) return run_pieces(arguments, options);
   files.size() > 1 ? run_each(arguments, options) : run_one(arguments, options);

@@ -137,6 +137,8 @@ TEST_CASE("fit --joint of several files refuses in one line what it cannot do, w
   check_refused({"fit", "--joint", slow, fast}, "slipfit manifest " + slow + " --out runs.csv");
   check_refused({"fit", "--joint", slow, fast, slow, "--speed", "1", "--speed", "2"}, "--speed is given 2 times");
   check_refused({"fit", "--joint", slow, fast, "--speed", "1", "--cycles", example.folder.path("c.csv")}, "--cycles");
+  check_refused({"fit", "--joint", slow, fast, "--speed", "1", "--group", "pad"}, "of a manifest");
+  check_refused({"fit", "--joint", slow, fast, "--speed", "1", "--only", "slow"}, "of a manifest");
   check_refused({"fit", "--joint", slow, fast, "--speed", "1", "--tier", "sawtooth"}, "no tier of a joint fit");
   const std::string drafted = example.folder.path("runs.csv");
   CHECK(run_slipfit({"manifest", slow, fast, "--out", drafted, "--quiet"}).exit_code == 0);
