@@ -3,6 +3,7 @@
 #include "commands.hpp"
 #include "failure.hpp"
 #include "output.hpp"
+#include "quantities.hpp"
 #include "slipfit/core/units.hpp"
 #include "slipfit/report/surface.hpp"
 #include "surface_options.hpp"
