@@ -588,6 +588,15 @@ inline constexpr double kSameScale = 0.6;
 /// halves of a track, of track and slips. [1; convention]
 inline constexpr double kSameSpacing = 0.15;
 
+/// Ratio of two spacings, above which the finer may be a pattern of its own. [1; convention]
+inline constexpr double kFinerPattern = 2.5;
+
+/// Largest ratio that may be an overtone: edges of the coarser pattern. [1; convention]
+inline constexpr double kHighestOvertone = 12.5;
+
+/// Distance of the ratio from a whole number, below which it is one. [1; convention]
+inline constexpr double kOvertoneApart = 0.15;
+
 /// Height of finer ridges over that of coarser ones that may be every second or third of them, above which the finer
 /// are the pattern. [1; convention]
 inline constexpr double kHigherRidges = 1.5;

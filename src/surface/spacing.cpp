@@ -413,6 +413,13 @@ double mean_height(const Pattern& pattern) {
   return std::accumulate(heights.begin(), heights.end(), 0.0) / std::max(1.0, static_cast<double>(heights.size()));
 }
 
+/// Edges of a coarser pattern have short waves of their own: a whole number of them for each of its ridges.
+bool is_overtone(const Pattern& fine, const Pattern& coarse) {
+  const double ratio = mean_distance(coarse) / mean_distance(fine);
+  return ratio < thresholds::kFinerPattern ||
+         (ratio < thresholds::kHighestOvertone && std::abs(ratio - std::round(ratio)) < thresholds::kOvertoneApart);
+}
+
 }  // namespace
 
 double mean_distance(const Pattern& pattern) {
@@ -430,9 +437,10 @@ std::vector<Pattern> find_patterns(std::span<const double> heights) {
     const bool is_surer = !patterns.empty() && pattern.spacing &&
                           pattern.log_chance < 2.0 * patterns.front().log_chance &&
                           mean_height(pattern) > thresholds::kHigherRidges * mean_height(patterns.front());
-    if (patterns.empty() || is_surer || !patterns.front().spacing) {
+    const bool is_edge = !patterns.empty() && is_overtone(seen, patterns.front());
+    if (patterns.empty() || is_surer || (!is_edge && !patterns.front().spacing)) {
       patterns = {std::move(pattern)};
-    } else if (pattern.spacing) {
+    } else if (!is_edge && pattern.spacing) {
       patterns.push_back(std::move(pattern));
     }
   }
