@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <utility>
 
+#include "model/rebound.hpp"
 #include "slipfit/inspection.hpp"
 #include "slipfit/model/motion.hpp"
 #include "slipfit/pipeline.hpp"
@@ -43,11 +43,6 @@ std::vector<double> speeds_around(double speed_m_per_s, const Estimate& critical
   return speeds;
 }
 
-/// Half a damped period lies between peak and trough, docs/model.md (2).
-double reflection_at(double zeta) {
-  return std::exp(-std::numbers::pi * zeta / std::sqrt(1.0 - zeta * zeta));
-}
-
 Estimate reflection_of(const FitResult& fit) {
   Estimate reflection;
   const Parameter* const damping = fit.find(ParameterId::DampingRatio);
@@ -55,9 +50,9 @@ Estimate reflection_of(const FitResult& fit) {
   const Estimate& zeta = damping->estimate;
   reflection.note = zeta.note;
   if (!zeta.value || damping->status == ParameterStatus::Bounded) return reflection;
-  reflection.value = reflection_at(*zeta.value);
+  reflection.value = model::rebound_at(*zeta.value);
   if (zeta.ci95 && zeta.ci95->low >= 0.0 && zeta.ci95->high < 1.0) {
-    reflection.ci95 = Interval{reflection_at(zeta.ci95->high), reflection_at(zeta.ci95->low)};
+    reflection.ci95 = Interval{model::rebound_at(zeta.ci95->high), model::rebound_at(zeta.ci95->low)};
   }
   return reflection;
 }

@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "core/statistics.hpp"
 #include "core/thresholds.hpp"
+#include "model/rebound.hpp"
 #include "model/slip_jets.hpp"
 #include "predict/critical.hpp"
 #include "predict/draws.hpp"
@@ -204,12 +204,10 @@ PlanMatrix vague(const ModelEstimate& model) {
   return matrix;
 }
 
-/// Scatter of the static friction. The force falls from that of the onset to exp(-pi zeta / b) of it on the other side;
-/// the fall is free of drift.
+/// Scatter of the static friction, from that of the fall, which is free of drift.
 double scatter_N(const PlanBasis& basis) {
   const double zeta = std::min(basis.estimate.damping_ratio, 0.9);
-  return basis.force_drop_sd_N.value_or(0.0) /
-         (1.0 + std::exp(-std::numbers::pi * zeta / std::sqrt(1.0 - zeta * zeta)));
+  return basis.force_drop_sd_N.value_or(0.0) / (1.0 + model::rebound_at(zeta));
 }
 
 class Planner {

@@ -9,6 +9,7 @@
 
 #include "core/thresholds.hpp"
 #include "fit/level/level_terms.hpp"
+#include "model/rebound.hpp"
 #include "signal/least_squares.hpp"
 #include "signal/smoothing.hpp"
 
@@ -113,7 +114,7 @@ void set_start(BlockFit& fit, const Segmentation& segmentation, const Coordinate
   const double omega_rad_per_s = std::exp(start(kLogFrequency));
   const double zeta = start(kDamping);
   const double b = std::sqrt(1.0 - zeta * zeta);
-  const double rebound = std::exp(-std::numbers::pi * zeta / b);  // trough over peak, both from the level
+  const double rebound = model::rebound_at(zeta);
   const double u = stiffness_N_per_m * scales.speed_m_per_s / omega_rad_per_s;
   fit.start_at(start);
   std::vector<double> times_s;

@@ -15,6 +15,7 @@
 #include "core/thresholds.hpp"
 #include "core/unknown.hpp"
 #include "fit/selection/tiers.hpp"
+#include "model/rebound.hpp"
 #include "slipfit/core/range.hpp"
 
 namespace slipfit::fit {
@@ -31,12 +32,10 @@ namespace {
 /// States why a force level is conditional.
 constexpr const char* kZeroUnknown = "assumes that the sensor reads 0 without force: state its reading with --zero";
 /// Returns zeta where F_k of each slip lies off its mean by a share of what F_s does, and `damping_ratio` is what the
-/// troughs give where it does not: a trough lies below F_k by e (F_s - F_k), e = exp(-pi zeta / sqrt(1 - zeta^2)).
+/// troughs give where it does not; 0 where that would be negative.
 double damping_where_friction_follows(double damping_ratio, double share) {
-  const double log_ratio = std::numbers::pi * damping_ratio / std::sqrt(1.0 - damping_ratio * damping_ratio);
-  const double ratio = (std::exp(-log_ratio) + share) / (1.0 - share);
-  const double decrement = std::max(0.0, -std::log(ratio)) / std::numbers::pi;
-  return decrement / std::sqrt(1.0 + decrement * decrement);
+  const double rebound = (model::rebound_at(damping_ratio) + share) / (1.0 - share);
+  return model::damping_ratio_with(std::min(1.0, rebound));
 }
 
 /// States why F_s - F_k and zeta of one speed are conditional. `damping_ratio`: of slips whose scatter determines it.
