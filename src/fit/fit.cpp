@@ -44,7 +44,7 @@ FitDiagnostics diagnostics_of(const Recording& recording, const DampedFit& dampe
   const double mean = fit::mean_onset_force(damped);
   FitDiagnostics diagnostics;
   diagnostics.relative_residual = damped.uncertainty.noise / std::abs(mean);
-  diagnostics.onset_force_spread = damped.uncertainty.onset_force_sd * blocks.scales().force / std::abs(mean);
+  diagnostics.onset_force_spread = fit::spread_of_onsets(damped);
   diagnostics.onset_force_error = damped.uncertainty.onset_force_error * blocks.scales().force / std::abs(mean);
   diagnostics.restick_share = resting_share(blocks);
   diagnostics.span_share = (blocks.scales().time_end_s - blocks.scales().time_begin_s) / recording.duration_s();

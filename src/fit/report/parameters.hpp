@@ -82,7 +82,7 @@ struct Findings {
   double samples_per_slip = 0.0;
   double sample_interval_s = 0.0;
   bool levels_differ = false;     ///< each slip has its own F_k
-  bool onsets_scatter = false;    ///< F_s of the slips does, which makes their troughs a measure of zeta
+  bool onsets_scatter = false;    ///< F_s of slips that a spring shows does: their troughs measure zeta
   std::vector<Caveat> caveats{};  ///< those about the same that were added later precede
   /// Says how far another law of kinetic friction moves F_k(0+) and F_s - F_k(0+), which lengthens their intervals.
   Coordinates other_law = Coordinates::Zero();

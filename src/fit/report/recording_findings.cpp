@@ -408,12 +408,6 @@ std::optional<Estimate> fitted_average_of(const DampedFit& fit) {
   return symmetric(fit.average->seconds, fit.average->standard_error_s, fit.uncertainty.degrees_of_freedom);
 }
 
-/// Returns whether F_s differs between the slips of a spring force: their troughs then measure zeta.
-bool do_onsets_scatter(const Conditions& conditions, const DampedFit& fit) {
-  const double sd_N = fit.uncertainty.onset_force_sd * fit.blocks.scales().force;
-  return conditions.force_view == ForceView::Spring && sd_N > thresholds::kNegligible * mean_onset_force(fit);
-}
-
 Units units_of(const BlockFit& blocks) {
   const Scales& scales = blocks.scales();
   return {.force = scales.force,
@@ -456,7 +450,8 @@ Findings findings_of(const Recording& recording, const TierFits& fits, const Res
   state_conditions(recording, findings);
   findings.cycles = blocks.size();
   findings.levels_differ = blocks.level().per_cycle;
-  findings.onsets_scatter = do_onsets_scatter(recording.conditions(), fits.damped);
+  findings.onsets_scatter =
+      recording.conditions().force_view == ForceView::Spring && spread_of_onsets(fits.damped) > thresholds::kNegligible;
   findings.samples_per_slip = resolution.samples_per_slip;
   findings.add(About::StiffnessAlone, ParameterStatus::Identified, stiffness.note);
   if (blocks.solves_for(kStiffnessDrift)) findings.add(About::StiffnessAlone, ParameterStatus::Identified, kInMiddle);

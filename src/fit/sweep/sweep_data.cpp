@@ -110,6 +110,10 @@ double mean_onset_force(const DampedFit& fit) {
   return fit.blocks.scales().force * sum / static_cast<double>(fit.blocks.size());
 }
 
+double spread_of_onsets(const DampedFit& fit) {
+  return fit.uncertainty.onset_force_sd * fit.blocks.scales().force / std::abs(mean_onset_force(fit));
+}
+
 double level_of(const DampedFit& fit) {
   const BlockFit& blocks = fit.blocks;
   if (!blocks.level().per_cycle) return blocks.scales().level + blocks.scales().force * blocks.parameters.level[0];

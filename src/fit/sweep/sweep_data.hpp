@@ -44,6 +44,8 @@ bool relaxes(const SweepData& data);
 /// Returns F_s - cV above F_k of a recording on its own, as a mean over its cycles; `level_of` returns that of the
 /// force level F_k(0+).
 double mean_onset_force(const DampedFit& fit);
+/// Returns the standard deviation of the onset force over the cycles, over the size of its mean.
+double spread_of_onsets(const DampedFit& fit);
 double level_of(const DampedFit& fit);
 
 /// Returns the scales with which a recording enters the fit of the sweep.
