@@ -12,6 +12,7 @@
 #include <string>
 
 #include "commands.hpp"
+#include "core/counted.hpp"
 #include "drafts.hpp"
 #include "failure.hpp"
 #include "output.hpp"
@@ -29,7 +30,7 @@ constexpr std::size_t kMostJobs = 1024;
 struct BatchArguments {
   std::vector<std::string> paths;
   std::string manifest;          ///< the one that is named, or drafted of the paths
-  std::size_t left_out = 0;      ///< files and tables in the paths that are no recording
+  std::size_t left_out = 0;      ///< of what is named or in the folders
   RecordingArguments recording;  ///< of files and folders
   std::string out;
   std::optional<std::size_t> jobs;
@@ -245,11 +246,7 @@ void run(const BatchArguments& stated) {
                   fmt::format("stopped after {} of {} recordings; --resume continues", done, progress.total));
   }
   const std::string left_out =
-      arguments.left_out > 0
-          ? fmt::format("; {} cannot be read and {} left out, see above",
-                        arguments.left_out == 1 ? "one file" : fmt::format("{} files", arguments.left_out),
-                        arguments.left_out == 1 ? "is" : "are")
-          : std::string();
+      arguments.left_out > 0 ? "; left out, see above: " + slipfit::counted(arguments.left_out, "file") : "";
   if (progress.failed > 0) {
     throw Failure(ExitCode::RecordingsFailed,
                   fmt::format("{} of {} recordings failed: the reasons are in '{}'{}", progress.failed, progress.total,

@@ -251,9 +251,10 @@ void check_no_selection(const FitArguments& arguments) {
 }
 
 /// Several recordings that are fitted together, each as the options, its file and its name say.
-void run_files_together(const FitArguments& arguments, const slipfit::FitOptions& options,
-                        const std::vector<std::string>& files) {
+void run_files_together(const FitArguments& arguments, const slipfit::FitOptions& options) {
   check_no_selection(arguments);
+  std::vector<std::string> files = arguments.recording.files;
+  files.insert(files.begin(), *arguments.sweep);
   if (const std::string option = first_given(arguments, {"--cycles", "--curve", "--plots", "--timing", "--mass",
                                                          "--sensor-bandwidth", "--sensor-resonance"});
       !option.empty()) {
@@ -277,11 +278,10 @@ void run(const FitArguments& arguments) {
                                                  is_together ? slipfit::FitKind::Sweep : slipfit::FitKind::Single);
   options.curve = !first_given(arguments, {"--curve", "--report", "--plots"}).empty();
   if (arguments.sweep) {  // a manifest, or the first of the recordings
-    std::vector<std::string> together = files;
-    together.insert(together.begin(), *arguments.sweep);
-    return is_manifest(*arguments.sweep) || names_manifest(together, read_options_from(arguments.recording))
-               ? run_manifest(arguments, options)
-               : run_files_together(arguments, options, together);
+    const std::string& first = *arguments.sweep;
+    const bool is_of_manifest =
+        files.empty() ? names_manifest({first}, read_options_from(arguments.recording)) : is_manifest(first);
+    return is_of_manifest ? run_manifest(arguments, options) : run_files_together(arguments, options);
   }
   check_no_selection(arguments);
   if (files.empty()) refuse("REC is required: name a recording, or a manifest with --joint");

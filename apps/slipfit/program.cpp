@@ -88,7 +88,8 @@ void check_command(const CLI::App& program, const std::string& first_argument) {
 
 bool is_unit(const std::string& text) {
   using enum slipfit::Dimension;
-  constexpr std::array kDimensions{Time, Length, Speed, Force, Frequency, Mass, AngularSpeed, Stiffness, Slowness};
+  constexpr std::array kDimensions{Time, Length,       Speed,     Force,    Frequency,
+                                   Mass, AngularSpeed, Stiffness, Slowness, ForceRate};
   return std::any_of(kDimensions.begin(), kDimensions.end(),
                      [&text](slipfit::Dimension dimension) { return bool(slipfit::parse_unit(text, dimension)); });
 }
